@@ -1,0 +1,1 @@
+"""The door: REST, live stream, dashboard, command line. No physics, no bytes."""

@@ -1,0 +1,1 @@
+"""The acquisition: configuration, wires, drivers, excitation, safety, time base, recorder, runs."""

@@ -1,0 +1,1 @@
+"""Excitation: what the drive is asked to do, and whether the stand can take it."""

@@ -1,0 +1,1 @@
+"""The model: rigs, fibre models, friction laws, kernels, score, fit, diagnosis, report."""

@@ -1,0 +1,1 @@
+"""Fibre models, one a file: each holds one public `FibreModel`."""
