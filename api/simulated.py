@@ -1,0 +1,66 @@
+"""A simulated stand for demonstrations and tests: `python -m mocks serve` as a process of its own."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from stand.errors import DeviceError
+
+READY_WITHIN = 30.0
+
+
+@dataclass
+class SimulatedStand:
+    """Starts when entered and ends when left, or when this process is gone.
+
+    arguments: of `python -m mocks`, the sub-command first. announcement: what it said when ready (ports,
+    latencies); empty before.
+    """
+
+    arguments: Sequence[str] = ("serve",)
+    log: Path | None = None
+    announcement: dict[str, Any] = field(default_factory=dict)
+    _process: subprocess.Popen[str] | None = None
+
+    def __enter__(self) -> SimulatedStand:
+        command = [sys.executable, "-m", "mocks", *self.arguments, "--parent", str(os.getpid())]
+        errors = self.log.open("w") if self.log else subprocess.DEVNULL
+        self._process = subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=errors, text=True, start_new_session=True
+        )
+        assert self._process.stdout is not None
+        line = self._process.stdout.readline()
+        if not line:
+            raise self._failed()
+        self.announcement = json.loads(line)
+        return self
+
+    def _failed(self) -> DeviceError:
+        assert self._process is not None
+        code = self._process.wait()
+        remedy = (
+            self.log.read_text().strip()[-600:] if self.log else f"Run `python -m mocks {' '.join(self.arguments)}`"
+        )
+        return DeviceError("the simulated stand did not start", where="mocks", value=code, remedy=remedy)
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._process is None:
+            return
+        self._process.terminate()
+        try:
+            self._process.wait(5.0)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        if self._process.stdout:
+            self._process.stdout.close()
