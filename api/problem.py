@@ -26,10 +26,10 @@ class FieldError(BaseModel):
 class Problem(BaseModel):
     """RFC 9457 problem details."""
 
-    type: str = Field("about:blank", examples=["/problems/input"])
+    type: str = Field(default="about:blank", examples=["/problems/input"])
     title: str = Field(examples=["The input can't be used"])
     status: int = Field(examples=[422])
-    detail: str = Field("", examples=["amplitude: beyond the drive's travel (got 0.12). At most 0.1 m"])
+    detail: str = Field(default="", examples=["amplitude: beyond the drive's travel (got 0.12). At most 0.1 m"])
     where: str = ""
     remedy: str = ""
     errors: list[FieldError] = []

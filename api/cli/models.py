@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -28,7 +27,7 @@ def command(
     write_json([describe_model(model) for model in models], json)
 
 
-def _show(models: "list[FibreModel]", name: str | None) -> None:
+def _show(models: list[FibreModel], name: str | None) -> None:
     rows: list[list[Any]] = [[m.name, m.title, ", ".join(sorted(m.systems)), str(m.source)] for m in models]
     out.print(table("Fibre models", ("name", "what it is", "rigs", "source"), rows))
     if name is not None:
