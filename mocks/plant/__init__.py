@@ -1,0 +1,1 @@
+"""The plant behind the simulated instruments: its own equations, its own integrator."""
