@@ -19,6 +19,8 @@ class Block:
     flags: uint8 [n], 1 where the device itself reports a fault with the sample (overload, alarm), else 0.
     arrival: host time of the read that completed the block, s on the acquisition's monotonic clock.
     skipped: bytes of junk passed over since the block before.
+    request: for a polled instrument, host time just before the question was sent, s.
+    tail: bytes of a frame that had begun and was not complete at `arrival`.
     """
 
     instrument: str
@@ -28,6 +30,8 @@ class Block:
     flags: NDArray[np.uint8]
     arrival: float
     skipped: int = 0
+    request: float | None = None
+    tail: int = 0
 
     def __len__(self) -> int:
         return len(self.values)
