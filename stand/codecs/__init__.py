@@ -1,0 +1,1 @@
+"""Codecs, one a file: bytes in, typed samples out. Each file holds one public `Codec`; `feed` is sans-IO."""
