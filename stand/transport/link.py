@@ -98,6 +98,10 @@ class ModbusLink:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, tb: TracebackType | None) -> None:
         self.close()
 
+    def telegram(self, pdu: bytes) -> bytes:
+        """The complete telegram of one request, for a connection of someone else's."""
+        return self._framing.wrap(pdu, 1)
+
     def transact(self, pdu: bytes) -> bytes:
         """The answer to one request; DeviceError on silence, refusal or nonsense. Nothing is sent twice."""
         return self.stamped(pdu)[0]

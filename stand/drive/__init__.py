@@ -1,0 +1,1 @@
+"""The drive: CiA 402 states, addressing back-ends, profiles as files, motion."""
