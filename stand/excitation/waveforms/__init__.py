@@ -1,0 +1,1 @@
+"""Waveforms, one a file: each holds one public `Waveform`."""
