@@ -12,7 +12,7 @@ import tempfile
 import threading
 import uuid
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -35,6 +35,10 @@ class Job:
     seconds: float | None = None
     result: dict[str, Any] = field(default_factory=dict)
     error: str = ""
+
+    def view(self) -> dict[str, Any]:
+        """As JSON."""
+        return asdict(self)
 
 
 class Jobs:

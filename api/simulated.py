@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import socket
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -64,3 +65,24 @@ class SimulatedStand:
             self._process.wait()
         if self._process.stdout:
             self._process.stdout.close()
+
+    def control(self, line: str) -> str:
+        """Send one line to the simulated stand's control socket and return its answer without the "ok"."""
+        host, _, port = str(self.announcement["control"]).rpartition(":")
+        with socket.create_connection((host, int(port)), timeout=10.0) as connection:
+            connection.sendall(f"{line}\n".encode())
+            answer = connection.makefile().readline().strip()
+        if not answer.startswith("ok"):
+            raise DeviceError(f"the simulated stand refused {line!r}", where="mocks", value=answer)
+        return answer.removeprefix("ok").strip()
+
+    def mount(self, mass: float) -> None:
+        """Put the added mass (kg) on the simulated weight, or take it off with 0."""
+        self.control(f"added_mass {mass!r}")
+
+
+def effects() -> list[str]:
+    """Names of the effects that a simulated stand hides visibly in one short run."""
+    command = [sys.executable, "-m", "mocks", "effects"]
+    told = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    return [effect["name"] for effect in told if effect.get("visible", True)]

@@ -21,6 +21,7 @@ async function act(button, onProblem) {
 export function allowPreparation(allowed) { for (const button of buttons) button.disabled = !allowed; }
 
 export function showStand(stand) {
+  document.getElementById("reset").hidden = stand.state !== "tripped";
   list.replaceChildren(...stand.devices.map(device));
 }
 

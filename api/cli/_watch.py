@@ -1,0 +1,123 @@
+"""A run in the terminal: its phase, the newest samples and the live scores, redrawn a few times a second."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from rich.console import Group
+from rich.live import Live
+from rich.progress_bar import ProgressBar
+from rich.table import Table
+from rich.text import Text
+
+from api.cli._console import cell, err
+from api.experiment import Experiment, State
+from api.follow import Follower
+
+if TYPE_CHECKING:
+    from stand.clock import LiveBlock
+    from stand.config import Stand
+    from stand.runs import RunHandle, RunOrder
+
+SHOWN_EVERY = 0.15
+GOOD = frozenset({State.FINISHED, State.STOPPED})
+
+
+def run_and_watch(
+    stand: Stand, order: RunOrder, *, model: str | None, seconds: float, title: str
+) -> tuple[Experiment, Any]:
+    """Run an order to its end: the last record and the twin that ran beside. Ctrl-C stops in good order."""
+    from api.twins import make_twin
+    from stand.runs import PHASES, start
+
+    twin = make_twin(model, order.setup or stand.setup) if model else None
+    handle = start(stand, order)
+    experiment = Experiment("run", {}, model or "", "", PHASES, seconds)
+    with Live(console=err, auto_refresh=False, transient=False) as live:
+        screen = _Screen(live, title)
+        follower = Follower(experiment, twin, changed=screen.changed, sampled=screen.sampled)
+        return _follow(follower, handle), twin
+
+
+def _follow(follower: Follower, handle: RunHandle) -> Experiment:
+    while True:
+        try:
+            return follower.follow(handle.events())
+        except KeyboardInterrupt:
+            err.print("[bold]stopping in good order; once more for a quick stop")
+            try:
+                handle.stop("Ctrl-C")
+                return follower.follow(handle.events())
+            except KeyboardInterrupt:
+                handle.emergency_stop("Ctrl-C twice")
+
+
+class _Screen:
+    """What the terminal shows of a run."""
+
+    def __init__(self, live: Live, title: str) -> None:
+        self._live, self._title, self._shown = live, title, 0.0
+        self._experiment: Experiment | None = None
+        self._values: dict[str, float] = {}
+        self._score: Mapping[str, Any] = {}
+        self._latency = 0.0
+
+    def changed(self, experiment: Experiment) -> None:
+        """A new record."""
+        self._experiment = experiment
+        self._show(force=not experiment.active)
+
+    def sampled(
+        self, block: LiveBlock, simulated: Mapping[str, Any] | None, score: Mapping[str, Any] | None, latency: float
+    ) -> None:
+        """New samples."""
+        self._values = {"x": 1e3 * float(block.x[-1]), "u": 1e3 * float(block.u[-1]), "F": float(block.F[-1])}
+        if simulated is not None:
+            self._values |= {"u_sim": 1e3 * float(simulated["u"][-1]), "F_sim": float(simulated["F"][-1])}
+        self._score, self._latency = score or {}, latency
+        self._show()
+
+    def _show(self, *, force: bool = False) -> None:
+        now = time.monotonic()
+        if self._experiment is None or (not force and now - self._shown < SHOWN_EVERY):
+            return
+        self._shown = now
+        self._live.update(Group(self._head(self._experiment), self._table()), refresh=True)
+
+    def _head(self, experiment: Experiment) -> Table:
+        head = Table.grid(padding=(0, 2))
+        state = experiment.phase if experiment.active else str(experiment.state)
+        tone = "green" if experiment.state in GOOD else "cyan" if experiment.active else "bold red"
+        bar = ProgressBar(total=1.0, completed=experiment.view()["progress"], width=30)
+        clock = f"{experiment.elapsed:5.1f} / {experiment.seconds:.1f} s"
+        head.add_row(Text(self._title, style="bold"), Text(f"{state:<9}", style=tone), bar, clock)
+        return head
+
+    def _table(self) -> Table:
+        table = Table(box=None, header_style="dim", pad_edge=False)
+        for name in ("channel", "measured", "simulated", "R", "R sliding", "NRMSE", "short-window error"):
+            table.add_column(name, justify="left" if name == "channel" else "right", min_width=9)
+        for key, title, unit in (("u", "weight u", "mm"), ("F", "force F", "N"), ("x", "drive x", "mm")):
+            score = self._score.get(key) or {}
+            window = (self._score.get("short") or {}).get(key)
+            error = None if window is None else f"{cell(1e6 * window)} µm" if key == "u" else f"{cell(window)} N"
+            table.add_row(
+                title,
+                _value(self._values.get(key), unit),
+                _value(self._values.get(f"{key}_sim"), unit),
+                _r(score.get("R")),
+                _r(score.get("sliding_R")),
+                cell(score.get("nrmse")) if key != "x" else "",
+                (error or "–") if key != "x" else "",
+            )
+        return table
+
+
+def _value(value: float | None, unit: str) -> str:
+    return "" if value is None else f"{value:8.3f} {unit}"
+
+
+def _r(value: float | None) -> str:
+    return "" if value is None else f"{value:.5f}"

@@ -1,0 +1,92 @@
+"""Follow one run: its events become the experiment's record, its samples go through the twin to whoever watches."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from api.experiment import Experiment, State
+from api.latency import Latency
+from stand.clock import LiveBlock
+from stand.runs import Failed, Finished, Health, Outcome, Phase, Progress, Trip
+
+if TYPE_CHECKING:
+    from twin.live import LiveTwin
+
+    from stand.runs import Event
+
+#: the record is published this often while only time goes on, s
+EVERY = 0.25
+#: how a run's outcome reads; an emergency stop is a trip by the operator
+ENDS = {Outcome.FINISHED: State.FINISHED, Outcome.STOPPED: State.STOPPED, Outcome.TRIPPED: State.TRIPPED}
+
+
+class Follower:
+    """Reads a run's events to their end in the calling thread.
+
+    changed(experiment): the record changed. sampled(block, simulated, score, latency): samples came; simulated
+    is {"u": [n], "F": [n]} or None, latency s from the block's oldest sample to now. health(instruments): once
+    a second. now: CLOCK_MONOTONIC, s.
+    """
+
+    def __init__(
+        self,
+        experiment: Experiment,
+        twin: LiveTwin | None,
+        *,
+        changed: Callable[[Experiment], None],
+        sampled: Callable[[LiveBlock, Mapping[str, Any] | None, Mapping[str, Any] | None, float], None],
+        health: Callable[[Health], None] = lambda health: None,
+        now: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.experiment, self.twin, self.latency = experiment, twin, Latency()
+        self._changed, self._sampled, self._health, self._now = changed, sampled, health, now
+
+    def tell(self, **changes: Any) -> None:
+        """Replace the record and say so."""
+        self.experiment = self.experiment.now(**changes)
+        self._changed(self.experiment)
+
+    def follow(self, events: Iterable[Event]) -> Experiment:
+        """Follow until the last event and return the last record."""
+        actions: dict[type, Callable[[Any], None]] = {
+            LiveBlock: self._block,
+            Phase: self._phase,
+            Progress: self._progress,
+            Health: self._health,
+            Trip: lambda trip: self.tell(why=str(trip)),
+            Finished: self._finished,
+            Failed: self._failed,
+        }
+        for event in events:
+            actions[type(event)](event)
+        return self.experiment
+
+    def _phase(self, event: Phase) -> None:
+        state = State.RUNNING if self.experiment.state is State.STARTING else self.experiment.state
+        self.tell(phase=event.name, state=state)
+
+    def _progress(self, event: Progress) -> None:
+        self.tell(elapsed=event.elapsed, dropped=event.dropped, latency=self.latency.quantiles())
+
+    def _finished(self, event: Finished) -> None:
+        state = ENDS[event.outcome]
+        if event.trip is not None and event.trip.rule == "operator":
+            state = State.EMERGENCY
+        run = event.path.stem if event.path else None
+        self.tell(state=state, why=event.why, run=run, latency=self.latency.quantiles())
+
+    def _failed(self, event: Failed) -> None:
+        self.tell(state=State.FAILED, why=str(event), run=event.path.stem if event.path else None)
+
+    def _block(self, block: LiveBlock) -> None:
+        simulated = score = None
+        if self.twin is not None:
+            live = self.twin.push(block.time, block.x, block.u, block.F)
+            simulated, score = {"u": live.u, "F": live.F}, live.to_json()
+        span = float(block.time[-1] - block.time[0])
+        self._sampled(block, simulated, score, self.latency.add(self._now() - block.newest_arrival + span))
+        elapsed = float(block.time[-1])
+        if not self.experiment.streaming or elapsed - self.experiment.elapsed > EVERY:
+            self.tell(streaming=True, elapsed=elapsed, latency=self.latency.quantiles())

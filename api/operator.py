@@ -1,0 +1,206 @@
+"""The one who runs the stand: one experiment or preparation step at a time, and the work after each run."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+import uuid
+from collections.abc import Callable
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from api.devices import resting, running
+from api.experiment import Experiment, State
+from api.follow import Follower
+from api.hub import Hub
+from api.jobs import Job, Jobs
+from api.live import Stream
+from api.orders import Order, make_plan
+from api.problem import Conflict, NotFound
+from api.runs import Runs
+from api.steps import do_step
+from api.twins import make_twin, store
+
+if TYPE_CHECKING:
+    from stand.config import Stand
+    from stand.runs import Health, RunHandle
+
+#: the devices are asked for their status at this interval while someone watches and nothing runs, s
+STATUS_EVERY = 10.0
+
+
+class Operator:
+    """Owns the stand for as long as the server lives; every method may be called from any thread.
+
+    title: how the screens call the stand. mount(mass): tells a simulated stand its added mass before a run.
+    """
+
+    def __init__(
+        self, stand: Stand, folder: Path, *, title: str = "", mount: Callable[[float], None] = lambda mass: None
+    ) -> None:
+        self.stand, self.title, self._mount = stand, title or stand.name, mount
+        self.hub, self.runs = Hub(), Runs(folder)
+        self.jobs = Jobs(self._job_changed)
+        self._busy = threading.Lock()
+        self._experiments: dict[str, Experiment] = {}
+        self._handle: RunHandle | None = None
+        self._thread: threading.Thread | None = None
+        self._status: dict[str, Any] = {}
+        self._closing = threading.Event()
+        self._tripped = ""
+
+    def open(self, loop: asyncio.AbstractEventLoop) -> None:
+        """Begin: the live stream runs on `loop`; the devices are asked how they are."""
+        self.hub.bind(loop)
+        self._tell_stand("connecting", resting(self.stand, "unknown"))
+        threading.Thread(target=self._look_now_and_then, name="status", daemon=True).start()
+
+    def close(self) -> None:
+        """Stop what runs, in good order, and end the jobs."""
+        self._closing.set()
+        if self._handle is not None and self._thread is not None and self._thread.is_alive():
+            self._handle.stop("the server ends")
+            self._thread.join(20.0)
+        self.jobs.close()
+
+    def experiments(self) -> list[Experiment]:
+        """All since the start, newest first."""
+        return list(reversed(self._experiments.values()))
+
+    def experiment(self, identity: str) -> Experiment:
+        """The experiment of that id; NotFound."""
+        if identity not in self._experiments:
+            raise NotFound("no such experiment", where="experiments", value=identity)
+        return self._experiments[identity]
+
+    def start(self, order: Order) -> Experiment:
+        """Start an experiment; InputError where the order can't be run, Conflict while the stand is busy."""
+        from stand.runs import PHASES, RunOrder, start
+
+        excitation, setup = order.excitation(), order.setup(self.stand)
+        plan = make_plan(excitation, self.stand)
+        twin = make_twin(order.model, setup)
+        self._take()
+        try:
+            self._refuse_after_trip()
+            self._mount(setup.added_mass)
+            run = RunOrder(excitation=excitation, setup=setup, folder=self.runs.folder, comment=order.comment)
+            self._handle = start(self.stand, run)
+        except BaseException:
+            self._busy.release()
+            raise
+        created = datetime.now(UTC).isoformat(timespec="seconds")
+        given = order.model_dump(exclude_none=True)
+        experiment = Experiment(uuid.uuid4().hex[:12], given, order.model, created, PHASES, float(plan.duration))
+        self._changed(experiment)
+        self.jobs.hold(True)
+        self._thread = threading.Thread(target=self._follow, args=(experiment, self._handle, twin), daemon=True)
+        self._thread.start()
+        return experiment
+
+    def stop(self, identity: str) -> Experiment:
+        """End an experiment in good order; Conflict where it has ended."""
+        experiment = self.experiment(identity)
+        if not experiment.active or self._handle is None:
+            raise Conflict("the experiment has ended", where=identity, value=str(experiment.state))
+        self._handle.stop()
+        return experiment
+
+    def emergency_stop(self) -> dict[str, Any]:
+        """Quick stop now, whether something runs or not: {"stopped": the drive has answered, "message"}."""
+        from stand.runs import emergency_stop
+
+        if self._handle is not None and self._handle.poll() is None:
+            self._handle.emergency_stop()
+            return {"stopped": True, "message": "The run was stopped by quick stop"}
+        stopped = emergency_stop(self.stand)
+        message = "The drive has taken the quick stop" if stopped else "The drive did not answer: use the hardware stop"
+        return {"stopped": stopped, "message": message}
+
+    def prepare(self, step: str, distance: float = 0.0) -> dict[str, Any]:
+        """Do a preparation step and wait for its end: {"message", "result"}."""
+        self._take()
+        try:
+            if step == "reset":
+                self._tripped = ""
+            self._refuse_after_trip()
+            done = do_step(self.stand, step, distance)
+        finally:
+            self._busy.release()
+        self._look()
+        return done
+
+    def status(self) -> dict[str, Any]:
+        """The stand as last told to the screens."""
+        return self._status
+
+    def list_runs(self) -> list[dict[str, Any]]:
+        """All runs but the one being recorded."""
+        return self.runs.list()
+
+    def _take(self) -> None:
+        if not self._busy.acquire(timeout=3.0):
+            raise Conflict("the stand is busy", where="stand", remedy="Wait for the experiment to end, or stop it")
+
+    def _refuse_after_trip(self) -> None:
+        if self._tripped:
+            remedy = "See to the cause, then reset the stand: nothing resumes by itself"
+            raise Conflict("the stand was stopped and stays stopped", where="stand", value=self._tripped, remedy=remedy)
+
+    def _follow(self, experiment: Experiment, handle: RunHandle, twin: Any) -> None:
+        stream = Stream(self.hub, experiment.id)
+        follower = Follower(experiment, twin, changed=self._changed, sampled=stream.sampled, health=self._health)
+        try:
+            last = follower.follow(handle.events())
+            self._tripped = last.why if last.state in (State.TRIPPED, State.EMERGENCY) else ""
+        except Exception as error:
+            handle.stop(f"the server failed: {error}")
+            last = follower.experiment.now(state=State.FAILED, why=f"{type(error).__name__}: {error}")
+            self._changed(last)
+        finally:
+            self._busy.release()
+            self.jobs.hold(False)
+        self._afterwards(last, twin)
+
+    def _afterwards(self, last: Experiment, twin: Any) -> None:
+        self.hub.publish_state("runs", {"newest": last.run})
+        if last.run is not None:
+            path = self.runs.path(last.run)
+            store(path, twin)
+            for kind in ("compare", "diagnose"):
+                self.jobs.submit(kind, [path])
+        self._look()
+
+    def _changed(self, experiment: Experiment) -> None:
+        self._experiments[experiment.id] = experiment
+        self.hub.publish_state("experiment", experiment.view())
+
+    def _health(self, health: Health) -> None:
+        self._tell_stand("moving", running(self.stand, health))
+
+    def _job_changed(self, job: Job) -> None:
+        self.hub.publish_state(f"job {job.id}", {"type": "job", **job.view()})
+
+    def _tell_stand(self, state: str, devices: list[dict[str, Any]], message: str = "") -> None:
+        self._status = {"name": self.title, "state": state, "message": message, "devices": devices}
+        self.hub.publish_state("stand", self._status)
+
+    def _look_now_and_then(self) -> None:
+        self._look()
+        while not self._closing.wait(STATUS_EVERY):
+            if len(self.hub):
+                self._look()
+
+    def _look(self) -> None:
+        """Ask the devices, unless something else has the stand."""
+        if not self._busy.acquire(blocking=False):
+            return
+        try:
+            found = do_step(self.stand, "status")["result"]
+            state = "tripped" if self._tripped else "ready"
+            self._tell_stand(state, resting(self.stand, "ok", found), self._tripped)
+        except Exception as error:
+            self._tell_stand("disconnected", resting(self.stand, "disconnected"), str(error))
+        finally:
+            self._busy.release()
