@@ -23,7 +23,7 @@ SILENCE_LIMIT = 0.2
 
 @dataclass(frozen=True, slots=True)
 class StopOrder:
-    """How to stop the drive without knowing it: kind "tcp" or "serial", host (or the device's path), port, telegrams."""
+    """How to stop the drive without knowing it: kind "tcp" or "serial", host or device path, port, telegrams."""
 
     kind: str
     host: str

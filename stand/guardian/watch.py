@@ -69,12 +69,12 @@ class Line:
         return False
 
 
-def stop_drive(line: Line, telegrams: list[bytes]) -> tuple[float, float | None]:
+def stop_drive(line: Line, telegrams: list[bytes], give_up: float = GIVE_UP) -> tuple[float, float | None]:
     """The monotonic times at which the first telegram was sent and the last was answered (None: never)."""
     first = time.monotonic()
     for telegram in telegrams:
         while not line.ask(telegram):
-            if time.monotonic() - first > GIVE_UP:
+            if time.monotonic() - first > give_up:
                 return first, None
             time.sleep(0.005)
     return first, time.monotonic()

@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-import numpy as np
-from numpy.typing import NDArray
-
 from stand.block import Block
+from stand.transport.raw import Raw
 
 
 class Wire(StrEnum):
@@ -16,28 +14,6 @@ class Wire(StrEnum):
 
     BYTES = "bytes"
     REGISTERS = "registers"
-
-
-@dataclass(frozen=True, slots=True)
-class RawBytes:
-    """One read of a serial stream: its bytes, and the host time at which the read returned, s."""
-
-    instrument: str
-    data: bytes
-    arrival: float
-
-
-@dataclass(frozen=True, slots=True)
-class RawRegisters:
-    """One register read, uint16 [k]: host times of the request's sending and of the response's arrival, s."""
-
-    instrument: str
-    registers: NDArray[np.uint16]
-    request: float
-    response: float
-
-
-Raw = RawBytes | RawRegisters
 
 
 @dataclass(frozen=True, slots=True)

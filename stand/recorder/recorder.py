@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from stand.block import Block
 from stand.errors import StandError
 from stand.recorder.layout import FilePlan, Layout, create_layout
-from stand.recorder.raw import Happening, RawBytes, RawRegisters, Taken
+from stand.recorder.raw import Happening, Taken
 from stand.recording.model import CHANNELS
+from stand.transport.raw import RawBytes, RawRegisters
 
 FLUSH = 0.2
 

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Callable
 
 from stand.guardian.client import StopOrder
 from stand.guardian.watch import Line, stop_drive
 
+SLOWEST = 0.1
+
 
 class QuickStop:
     """Connected before anything moves; `trigger` is safe to call from any thread and any number of times.
 
-    The stop is repeated every `repeat` s until `release`, so that a set point already on its way can't undo it.
+    The stop is repeated, from every `repeat` s to every SLOWEST s, until `close`, so that a set point already on
+    its way can't undo it.
     """
 
-    def __init__(self, order: StopOrder, *, repeat: float = 0.02) -> None:
+    def __init__(self, order: StopOrder, *, repeat: float = 0.005) -> None:
         self._order, self._repeat = order, repeat
         self._line = Line({"kind": order.kind, "host": order.host, "port": order.port})
         self._wanted, self._leave = threading.Event(), threading.Event()
@@ -53,3 +55,4 @@ class QuickStop:
             if answered is not None:
                 self.confirmed.set()
             self._leave.wait(self._repeat)
+            self._repeat = min(1.3 * self._repeat, SLOWEST)
