@@ -70,8 +70,8 @@ def record(
 def sample(
     signals: Mapping[str, Float], time: Float, world: World, noise: Noise, rng: np.random.Generator
 ) -> dict[str, Float]:
-    """The channels as the instruments give them at RATE: each by its own clock, noisy, in steps, u and x from the rest."""
-    wanted = time[0] + (np.arange(int(round((time[-1] - time[0]) * RATE))) + 1.0) / RATE - GRID
+    """The channels as the instruments give them at RATE: by own clocks, noisy, in steps, u and x from the rest."""
+    wanted = time[0] + (np.arange(round((time[-1] - time[0]) * RATE)) + 1.0) / RATE - GRID
     channels = {}
     for instrument, name in CHANNEL_OF.items():
         if name not in signals:

@@ -14,7 +14,7 @@ Value = float | str
 
 @dataclass(frozen=True, slots=True)
 class Size:
-    """A parameter of an effect: unit as files state it, default, null (no effect), and the range that sizes are drawn from.
+    """A parameter of an effect: its unit in files, its default, its null and the range that sizes are drawn from.
 
     signed: drawn with either sign. steady: kept at a plain uniform draw (phases, places), not part of the size.
     """

@@ -15,7 +15,7 @@ RUNS = 6
 
 
 def draw_motions(seed: int | np.random.Generator) -> list[Motion]:
-    """Six motions from a seed: slow sine, trapezoid without and with snatches (above 0.4 m/s), rectangle, two loaded."""
+    """Six motions: slow sine, trapezoid without and with snatches (above 0.4 m/s), rectangle, two loaded."""
     rng = np.random.default_rng(seed)
 
     def between(low: float, high: float) -> float:

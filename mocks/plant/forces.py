@@ -22,9 +22,6 @@ WEIGHT_STRAND, DRIVE_STRAND, HIGH_STOP, LOW_STOP = range(4)
 CONTACTS = 4
 GUIDE, PATCH, RIM, SPEED = range(4)
 
-BRISTLE = 2e-7  # m, presliding of the guide's bristles
-BEARING_BRISTLE = 2e-6  # m, presliding at the pulley's bearing
-
 
 @njit(cache=True)
 def look(table, where, low, high):  # type: ignore[no-untyped-def]
@@ -52,20 +49,13 @@ def relax(bristle, velocity, creep, presliding, dt):  # type: ignore[no-untyped-
 
 
 @njit(cache=True)
-def rest_stretch(c, hardening, tension):  # type: ignore[no-untyped-def]
-    """Elongation d with c d (1 + hardening d) = tension."""
-    if abs(hardening) * tension < 1e-9 * c:
-        return tension / c
-    return (math.sqrt(1.0 + 4.0 * hardening * tension / c) - 1.0) / (2.0 * hardening)
-
-
-@njit(cache=True)
 def elongations(y, x, p):  # type: ignore[no-untyped-def]
     """Elongation of the weight strand and the drive strand."""
-    whole = rest_stretch(p.c, p.hardening, p.rest_tension) + p.creep * p.rest_tension
     rim = y[S] + y[SLIP]
-    wobble = p.eccentricity * (math.sin(y[S] / p.radius + p.eccentric_phase) - math.sin(p.eccentric_phase))
-    return rim + wobble - y[U] + whole / p.share1, x - y[MOUNT] - rim + whole / p.share2
+    d1, d2 = rim - y[U] + p.rest_stretch / p.share1, x - y[MOUNT] - rim + p.rest_stretch / p.share2
+    if p.eccentricity != 0.0:
+        d1 += p.eccentricity * (math.sin(y[S] / p.radius + p.eccentric_phase) - math.sin(p.eccentric_phase))
+    return d1, d2
 
 
 @njit(cache=True)
@@ -181,7 +171,9 @@ def accelerate(t, y, ax, t1, t2, lever, fibre, bristle, bearing, contact, p, tab
 def rates(t, y, x, vx, ax, bristle, bearing, contact, p, tables, inner, report, dy):  # type: ignore[no-untyped-def]
     """dy = y'(t) with the drive at x, x', x''; contacts and bristles are held. inner: the fibre has inner states."""
     d1, d2 = elongations(y, x, p)
-    lever = 1.0 + p.eccentricity / p.radius * math.cos(y[S] / p.radius + p.eccentric_phase)
+    lever = 1.0
+    if p.eccentricity != 0.0:
+        lever += p.eccentricity / p.radius * math.cos(y[S] / p.radius + p.eccentric_phase)
     b = p.b + p.b_slope * max(0.0, abs(y[V]) - p.b_threshold)
     b1, b2 = b * p.share1, b * p.share2
     a1 = pull(d1, p.share1, y, Q1, Z1, E1, p) if contact[WEIGHT_STRAND] else -np.inf

@@ -38,8 +38,13 @@ EXCITATION_UNITS = {"frequency": "Hz", "amplitude": "m", "ramp": "s", "drop_heig
 
 
 def write(
-    path: Path, stand: Stand, channels: Mapping[str, Float], sigma: Mapping[str, float], rate: float, ordered: Mapping[str, float | str]
-) -> Path:  # fmt: skip
+    path: Path,
+    stand: Stand,
+    channels: Mapping[str, Float],
+    sigma: Mapping[str, float],
+    rate: float,
+    ordered: Mapping[str, float | str],
+) -> Path:
     """One run at `path` (replaced if it is there): channels at `rate` Hz with their noise, setup, excitation."""
     with h5py.File(path, "w") as file:
         file.attrs.update({"NX_class": "NXroot", "default": "entry"})

@@ -3,18 +3,17 @@ bristles of dry friction relaxed exactly in half-steps on both sides of it (Stra
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from mocks.plant.forces import (
     ACCELERATION,
-    BEARING_BRISTLE,
-    BRISTLE,
     CONTACTS,
+    E1,
     FORCE,
     FRICTION,
+    Q1,
     REPORTS,
     SIZE,
     T1,
@@ -27,6 +26,7 @@ from mocks.plant.forces import (
     rates,
     relax,
 )
+from mocks.plant.physics import Physics
 
 #: columns of what `march` writes at each grid point
 COLUMNS = ("x", "drive_speed", "u", "v", "s", "w", "F", "T1", "T2", "friction", "acceleration")
@@ -46,9 +46,9 @@ def drive_at(drive, i, share, dt, out):  # type: ignore[no-untyped-def]
 @njit(cache=True)
 def relax_both(y, report, bristles, h, p):  # type: ignore[no-untyped-def]
     """Guide's and bearing's bristles after h at the present speeds."""
-    bristles[0] = relax(bristles[0], y[V], p.friction_velocity, BRISTLE, h)
+    bristles[0] = relax(bristles[0], y[V], p.friction_velocity, p.presliding, h)
     if p.bearing > 0.0:
-        bristles[1] = relax(bristles[1], y[W], p.bearing_creep, BEARING_BRISTLE, h)
+        bristles[1] = relax(bristles[1], y[W], p.bearing_creep, p.bearing_presliding, h)
 
 
 @njit(cache=True)
@@ -95,12 +95,12 @@ def first_contact(y, end, x0, x1, contact, p):  # type: ignore[no-untyped-def]
 
 @njit(cache=True)
 def locate(which, share, y, t, h, drive, i, start, dt, z, half, contact, p, tables, size, work, report):  # type: ignore[no-untyped-def]
-    """Steps to where contact `which` closes (result in work[0]); the share of h that it took. Regula falsi, Illinois."""
+    """Steps to where contact `which` closes (result in work[0]); the share of h that it took. Regula falsi."""
     at = work[6]
     drive_at(drive, i, start, dt, at)
     low, high = 0.0, 1.0
     g_low, g_high = min(gap(which, y, at[0], p), 0.0), 0.0
-    for k in range(LOCATING):
+    for _ in range(LOCATING):
         step(y, t, share * h, drive, i, start, dt, z, half, contact, p, tables, size, work, report)
         drive_at(drive, i, start + share * h / dt, dt, at)
         g = gap(which, work[0], at[0], p)
@@ -110,10 +110,7 @@ def locate(which, share, y, t, h, drive, i, start, dt, z, half, contact, p, tabl
             high, g_high = share, g
         else:
             low, g_low = share, g
-        if g_high > 0.0:
-            share = low + (high - low) * g_low / (g_low - g_high)
-        else:
-            share = min(1.0, share + 0.5 * (1.0 - share))
+        share = low + (high - low) * g_low / (g_low - g_high) if g_high > 0.0 else 0.5 * (1.0 + share)
     return share
 
 
@@ -181,16 +178,10 @@ def servo(state, targets, dt, bandwidth, limit, out):  # type: ignore[no-untyped
     state[0], state[1] = x, v
 
 
-def rest_state(record: np.ndarray) -> np.ndarray:  # type: ignore[type-arg]
+def rest_state(physics: Physics) -> NDArray[np.float64]:
     """State of the stand hanging at rest with the drive at zero, float64 [SIZE]."""
-    p = record[0]
     y = np.zeros(SIZE)
-    k = float(p["hardening"])
-    stretch = float(p["rest_tension"]) / float(p["c"])
-    if k:
-        stretch = (math.sqrt(1.0 + 4.0 * k * stretch) - 1.0) / (2.0 * k)
-    creep = float(p["creep"]) * float(p["rest_tension"])
-    for side, share in enumerate((float(p["share1"]), float(p["share2"]))):
-        y[6 + side] = (stretch + creep) / share
-        y[10 + side] = creep / share
+    for side, share in enumerate((physics.share1, physics.share2)):
+        y[Q1 + side] = physics.rest_stretch / share
+        y[E1 + side] = physics.creep * physics.rest_tension / share
     return y

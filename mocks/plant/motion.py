@@ -17,7 +17,7 @@ SHAPES = ("rectangular", "trapezoidal", "quasi-sinusoidal", "release")
 
 @dataclass(frozen=True)
 class Motion:
-    """frequency Hz, amplitude m peak to peak, ramp s (trapezoid), added_mass kg; cycles follow from the time there is."""
+    """frequency Hz, amplitude m peak to peak, ramp s (trapezoid), added_mass kg; cycles follow from the time."""
 
     shape: str
     frequency: float = 0.0
@@ -58,7 +58,7 @@ SITUATIONS = {
 
 def targets(motion: Motion, seconds: float, grid: float) -> Float:
     """Rows (x, x', x'') float64 [seconds/grid, 3] at grid, 2 grid, ...; ValueError beyond the drive's limits."""
-    time = (np.arange(round(seconds / grid)) + 1.0) * grid - REST
+    time = np.linspace(grid, seconds, round(seconds / grid)) - REST
     path = _sine(motion, seconds, time) if motion.shape == "quasi-sinusoidal" else _ramps(motion, seconds, time)
     for column, limit, what in ((1, SPEED, "speed"), (2, ACCELERATION, "acceleration")):
         most = float(np.abs(path[:, column]).max())

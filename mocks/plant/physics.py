@@ -32,6 +32,8 @@ class Physics:
     wrap: float
     friction: float  # guide's dry friction, N
     friction_velocity: float  # below it the guide creeps instead of sticking
+    presliding: float = 2e-8  # m of the guide's bristles: too little to see beside the creep
+    bearing_presliding: float = 2e-6  # m at the rim
     locked: float = 0.0  # 1: the fibre's upper end is fixed (no pulley, no drive)
     # fibre
     b_slope: float = 0.0
@@ -79,12 +81,21 @@ class Physics:
     shake_phase: float = 0.0
     load_friction: float = 0.0  # N per N of weight-strand tension above rest, squared
     tables: float = 0.0  # 1: the tables hold something
+    rest_stretch: float = 0.0  # of the whole fibre under the rest tension, creep included; set by `record`
     step: float = 25e-6
 
     def record(self) -> NDArray[np.void]:
-        """A record array of length 1 with these fields, the whole fibre's step size fitted to the stiffest part."""
+        """A record array of length 1 with these fields."""
+        self.rest_stretch = self.stretch(self.rest_tension) + self.creep * self.rest_tension
         dtype = np.dtype([(f.name, np.float64) for f in fields(self)])
         return np.array([astuple(self)], dtype=dtype)
+
+    def stretch(self, tension: float) -> float:
+        """The whole fibre's elastic elongation d under a tension: c d (1 + hardening d) = tension, m."""
+        plain = tension / self.c
+        if abs(self.hardening) * plain < 1e-9:
+            return plain
+        return (math.sqrt(1.0 + 4.0 * self.hardening * plain) - 1.0) / (2.0 * self.hardening)
 
 
 def physics(rig: Rig) -> Physics:

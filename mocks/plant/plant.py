@@ -49,7 +49,7 @@ class Plant:
         self._record = self.world.record()
         self._tables = self.world.tables.packed()
         self._size = self.world.state_size()
-        self._state = march.rest_state(self._record)
+        self._state = march.rest_state(self.world.physics)
         self._bristles, self._contacts = np.zeros(2), np.array([True, True, False, False])
         self._servo, self._target = np.zeros(2), np.zeros(3)
         self._end = np.zeros(2)
@@ -59,6 +59,13 @@ class Plant:
     def time(self) -> float:
         """Plant time, s."""
         return self._step * GRID
+
+    def load(self, added_mass: float) -> None:
+        """Puts this mass on the weight, instead of what was added before; the plant swings to its new rest."""
+        physics, rig = self.world.physics, self.world.rig
+        physics.mass += added_mass - rig.added_mass
+        self.world.rig = rig.but(added_mass=added_mass)
+        self._record["mass"] = physics.mass
 
     @property
     def drive(self) -> tuple[float, float]:
@@ -71,9 +78,7 @@ class Plant:
         position in m from the rest position. The servo follows within its means; a jump is followed at STRONGEST.
         """
         goal = np.array([position, speed, acceleration])
-        targets = _between(self._target, goal, steps)
-        self._target = goal
-        return self.follow(targets)
+        return self.follow(_between(self._target, goal, steps))
 
     def follow(self, targets: Float) -> Slice:
         """One grid step for each row (x, x', x'') of targets [n, 3]."""
@@ -85,11 +90,11 @@ class Plant:
     def carry(self, path: Float) -> Slice:
         """One grid step for each row (x, x') of path [n, 2], the drive's position as it is, without a servo."""
         n = len(path)
-        time = (self._step + 1 + np.arange(n)) * GRID
+        time = np.asarray((self._step + 1.0 + np.arange(n)) * GRID, dtype=np.float64)
         end = path
         for stage in self.world.drive:
             end = stage(time, end)
-        drive = np.concatenate([self._end[None], end])
+        drive: Float = np.concatenate([self._end[None], end])
         truth = np.empty((n, len(march.COLUMNS)))
         march.march(
             self._step * GRID, self._state, self._bristles, self._contacts, drive, GRID, self._record, self._tables,
@@ -114,4 +119,5 @@ def _between(start: Float, goal: Float, steps: int) -> Float:
     c2, c3 = 3.0 * gap - 2.0 * v0 - v1, v0 + v1 - 2.0 * gap
     x = start[0] + share * (v0 + share * (c2 + share * c3))
     v = (v0 + share * (2.0 * c2 + 3.0 * share * c3)) / span
-    return np.stack([x, v, (2.0 * c2 + 6.0 * share * c3) / span**2], axis=-1)
+    path: Float = np.stack([x, v, (2.0 * c2 + 6.0 * share * c3) / span**2], axis=-1)
+    return path
