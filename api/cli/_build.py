@@ -43,7 +43,7 @@ def build(arguments: Sequence[str]) -> typer.Typer:
 
 def _add(app: typer.Typer, name: str, *, whole: bool) -> None:
     if not whole:
-        app.command(name, help=summary(name))(_elsewhere)
+        app.command(name, short_help=summary(name))(_elsewhere)
         return
     module = importlib.import_module(f"api.cli.{names()[name]}")
     app.command(name, help=module.__doc__, epilog=f"\b\nExample:\n  {module.EXAMPLE}")(module.command)

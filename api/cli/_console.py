@@ -17,7 +17,8 @@ from rich.table import Table
 
 from stand.errors import InputError
 
-out = Console(highlight=False)
+#: where stdout is no terminal, lines are long rather than broken
+out = Console(highlight=False, width=None if sys.stdout.isatty() else 160, soft_wrap=not sys.stdout.isatty())
 err = Console(stderr=True, highlight=False)
 
 JsonOption = Annotated[

@@ -43,4 +43,4 @@ def _recover(path: Path) -> None:
 
     with progress(f"redoing {path.name}"):
         done = recover(path)
-    out.print(f"redone: {done}")
+    out.print(f"{path}: {done.seconds_before:.2f} s before, {done.seconds:.2f} s now. {done.guardian}")

@@ -21,10 +21,11 @@ def command(
     json: JsonOption = None,
 ) -> None:
     """Run the command."""
-    from stand.recording.columns import import_columns
+    from stand.recording import read_recording
+    from stand.recording.import_csv import import_csv
 
-    target = save or file.with_suffix(".h5")
-    run = import_columns(file, setup, target)
+    target = import_csv(file, setup, save)
+    run = read_recording(target)
     result = {"recording": str(target), "samples": len(run.time), "rate": 1.0 / run.dt, "notes": list(run.notes)}
     if not quiet(json):
         out.print(f"{target}: {len(run.time)} samples at {1.0 / run.dt:.6g} Hz, {', '.join(run.channels)}")

@@ -1,0 +1,133 @@
+"""The command line as a user meets it: subprocesses, exit codes, one clear message."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from api.cli._build import names
+from stand.recording import Recording, write_recording
+from stand.setup import nominal
+
+STAND = [sys.executable, "-m", "api.cli"]
+
+
+def stand(*arguments: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([*STAND, *map(str, arguments)], capture_output=True, text=True, timeout=60)
+
+
+@pytest.fixture
+def resting(tmp_path: Path) -> Path:
+    t = np.arange(2400) / 2000
+    noise = np.random.default_rng(1).normal(size=t.size)
+    channels = {
+        "drive_position": 1e-2 * np.sin(t) ** 4,
+        "weight_position": 1e-2 * np.sin(t) ** 4 + 1e-6 * noise,
+        "fibre_force": 15.2 + 0.1 * noise,
+    }
+    return write_recording(Recording(None, nominal(), t, channels), tmp_path / "run.h5")
+
+
+def test_help_lists_every_command_found_in_the_folder() -> None:
+    text = stand("--help").stdout
+    wanted = "causes compare demo diagnose doctor fit import models profiles replay run serve simulate situations"
+    assert set(wanted.split()) == set(names())
+    for name in wanted.split():
+        assert f"\n  {name} " in text
+
+
+def test_help_comes_quickly() -> None:
+    """Median of three: 0.4 s is what a person takes for at once (0.17 s when quiet; doubled under load)."""
+    seconds = []
+    for _ in range(3):
+        began = time.monotonic()
+        stand("--help")
+        seconds.append(time.monotonic() - began)
+    assert sorted(seconds)[1] < 1.0
+
+
+@pytest.mark.parametrize("name", sorted(names()))
+def test_each_command_shows_an_example(name: str) -> None:
+    done = stand(name, "--help")
+    assert done.returncode == 0
+    assert f"stand {name}" in done.stdout.partition("Example:")[2]
+
+
+def test_an_unknown_command_is_bad_input_with_a_proposal() -> None:
+    done = stand("modelz")
+    assert done.returncode == 2
+    assert "models" in done.stderr
+
+
+def test_a_missing_file_is_bad_input_told_in_one_line() -> None:
+    done = stand("compare", "no-such-run.h5")
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "no-such-run.h5" in done.stderr
+
+
+def test_an_impossible_order_names_field_value_and_remedy() -> None:
+    done = stand(
+        "simulate", "--shape", "trapezoidal", "--frequency", 1, "--amplitude", 0.5, "--ramp", 0.2, "--duration", 5
+    )
+    assert done.returncode == 2
+    assert "amplitude" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_word_where_a_shape_belongs_is_bad_input() -> None:
+    done = stand("run", "--shape", "triangular", "--simulated")
+    assert done.returncode == 2
+    assert "--shape" in done.stderr
+
+
+def test_running_without_a_stand_says_what_to_give() -> None:
+    done = stand("run", "--situation", "2")
+    assert done.returncode == 2
+    assert "--simulated" in done.stderr
+
+
+def test_situations_are_printed_and_written_as_json(tmp_path: Path) -> None:
+    done = stand("situations", "--json", tmp_path / "s.json")
+    assert done.returncode == 0
+    found = json.loads((tmp_path / "s.json").read_text())
+    assert [s["name"] for s in found] == ["2", "3c", "7a", "10", "11"]
+    assert found[1]["published_R"]["weight_position"]["velocity_dependent_damping"] == 0.919
+
+
+def test_json_on_stdout_is_alone_there() -> None:
+    assert json.loads(stand("profiles", "--json", "-").stdout)
+
+
+def test_doctor_finds_a_good_recording_good(resting: Path) -> None:
+    done = stand("doctor", resting)
+    assert done.returncode == 0, done.stdout
+    assert "2400 samples" in done.stdout
+
+
+def test_doctor_finds_a_constant_channel_and_says_so(resting: Path) -> None:
+    import h5py
+
+    with h5py.File(resting, "r+") as file:
+        file["entry/data/fibre_force"][:] = 15.0
+    done = stand("doctor", resting)
+    assert done.returncode == 1
+    assert "constant" in done.stdout
+
+
+def test_import_makes_a_recording_from_columns(tmp_path: Path) -> None:
+    t = np.arange(0, 1.5, 0.0005)
+    columns = np.column_stack([t, 10 * np.sin(t), 10 * np.sin(t), 15 + 0 * t])
+    table = tmp_path / "measured.csv"
+    np.savetxt(table, columns, delimiter=";", header="time [s]; x [mm]; u [mm]; F [N]", comments="")
+    (tmp_path / "setup.toml").write_text('[setup]\nsystem = "weight-fibre-pulley-drive"\nweight_mass = "3.1 kg"\n')
+    done = stand("import", table, "--setup", tmp_path / "setup.toml")
+    assert done.returncode == 0, done.stderr
+    assert "3000 samples at 2000 Hz" in done.stdout
+    assert (tmp_path / "measured.h5").exists()
