@@ -106,6 +106,27 @@ class Delay:
         return out
 
 
-def each(function: Callable[[Float, Float, Float], Float]) -> Stage:
-    """A stage without memory."""
-    return function
+class Inertia:
+    """A mass that moves with the drive between it and the gauge's spring: signal + mass x''."""
+
+    def __init__(self, mass: float) -> None:
+        self.mass, self.speed = mass, 0.0
+
+    def __call__(self, time: Float, signal: Float, truth: Float) -> Float:
+        speeds = np.concatenate([[self.speed], truth[:, 1]])
+        self.speed = float(speeds[-1])
+        acceleration = np.diff(speeds) / (time[1] - time[0] if len(time) > 1 else 5e-5)
+        return signal + self.mass * acceleration
+
+
+class Screw:
+    """A drive's path that is periodically off: x + amplitude (sin(k x + phase) - sin(phase))."""
+
+    def __init__(self, amplitude: float, k: float, phase: float) -> None:
+        self.amplitude, self.k, self.phase = amplitude, k, phase
+
+    def __call__(self, time: Float, path: Float) -> Float:
+        x, v = path[:, 0], path[:, 1]
+        off = self.amplitude * (np.sin(self.k * x + self.phase) - math.sin(self.phase))
+        rate = 1.0 + self.amplitude * self.k * np.cos(self.k * x + self.phase)
+        return np.stack([x + off, v * rate], axis=-1)

@@ -1,0 +1,21 @@
+"""The fibre yields slowly under load: a Kelvin-Voigt element in series, settled at rest."""
+
+from mocks.effects import Effect, Size
+from mocks.plant.world import World
+
+
+def act(world: World, compliance: float, time_constant: float) -> None:
+    """Sets the element of the whole fibre."""
+    world.physics.creep, world.physics.creep_time = compliance, time_constant
+
+
+EFFECT = Effect(
+    "fibre-creep",
+    "fibre",
+    (
+        Size("compliance", "m/N", 4e-06, 2e-07, 1e-05),
+        Size("time_constant", "s", 0.6, 0.2, 2.0, steady=True),
+    ),
+    act,
+    systems=("weight-fibre-pulley-drive", "weight-fibre"),
+)

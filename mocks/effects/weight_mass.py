@@ -1,0 +1,20 @@
+"""The weight is heavier or lighter than the operator believes."""
+
+from mocks.effects import Effect, Size
+from mocks.plant.world import World
+
+
+def act(world: World, difference: float) -> None:
+    """Changes the mass and the tension that holds it at rest."""
+    physics = world.physics
+    physics.mass += difference
+    physics.rest_tension = physics.mass * physics.gravity_along
+
+
+EFFECT = Effect(
+    "weight-mass",
+    "weight",
+    (Size("difference", "kg", 0.2, 0.1, 0.4, signed=True),),
+    act,
+    systems=("weight-fibre-pulley-drive", "weight-fibre"),
+)
