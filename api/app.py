@@ -35,7 +35,14 @@ def create_app(operator: Operator, access: Access) -> FastAPI:
         finally:
             await asyncio.to_thread(operator.close)
 
-    app = FastAPI(title="Fibre stand", version=version("fibre-stand"), description=DESCRIPTION, lifespan=life)
+    app = FastAPI(
+        title="Fibre stand",
+        version=version("fibre-stand"),
+        description=DESCRIPTION,
+        lifespan=life,
+        docs_url=None,  # FastAPI's own pages need the internet; ours is at the same address
+        redoc_url=None,
+    )
     app.state.operator, app.state.access = operator, access
     problem.install(app)
     for module in (experiments, emergency, runs, stand, situations, models, diagnoses, jobs, live, page):

@@ -2,8 +2,8 @@
 import { Strip } from "./chart.js";
 import { fixed, millimetres } from "./format.js";
 
-const measured = (name) => ({ name, colour: "--measured", weight: 1.8 });
-const simulated = (name) => ({ name, colour: "--simulated", weight: 1.4 });
+const measured = (name) => ({ name, colour: "--measured", weight: 2.6 });
+const simulated = (name) => ({ name, colour: "--simulated", weight: 1.25 });
 const at = (id) => document.getElementById(id);
 
 const strips = {

@@ -29,7 +29,7 @@ function device({ title, state, detail, rate, clock, latency, lost, age, fields 
   const facts = Object.entries(fields || {});
   if (rate) facts.push(["rate", fixed(rate, rate < 100 ? 1 : 0, "Hz")]);
   if (clock) facts.push(["clock", `${clock.drift_ppm >= 0 ? "+" : "−"}${short(Math.abs(clock.drift_ppm), 2)} ppm`], ["residual", `${short(clock.residual_us, 2)} µs`]);
-  if (latency !== null && latency !== undefined) facts.push(["link latency", fixed(1e3 * latency, 2, "ms")]);
+  if (latency !== null && latency !== undefined) facts.push(["latency", fixed(1e3 * latency, 2, "ms")]);
   if (lost) facts.push(["frames lost", String(lost)]);
   if (age !== null && age !== undefined && age > 0.5) facts.push(["last sample", `${fixed(age, 1, "s")} ago`]);
   return el("div", { class: "device" }, el("h3", {}, title, el("span", { class: `state ${tones[state] || ""}` }, state)),
