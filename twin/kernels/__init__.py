@@ -1,0 +1,1 @@
+"""Compiled steppers and force laws; a module here compiles when it is imported, so import it where it is used."""
