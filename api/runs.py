@@ -35,8 +35,8 @@ class Runs:
 
     def list(self) -> list[dict[str, Any]]:
         """A summary of each recording, newest first."""
-        files = sorted(self.folder.glob("*.h5"), key=lambda file: file.stat().st_mtime, reverse=True)
-        return [self.summary(file) for file in files]
+        files = [file for file in self.folder.glob("*.h5") if not file.name.startswith(".")]
+        return [self.summary(file) for file in sorted(files, key=lambda file: file.stat().st_mtime, reverse=True)]
 
     def path(self, name: str) -> Path:
         """The recording `name` (without ending); NotFound, also for a name that would leave the folder."""
@@ -56,8 +56,9 @@ class Runs:
         """Name, time, size, what the file says, scores, and which results lie beside it."""
         stat = file.stat()
         key = (file.name, stat.st_size, stat.st_mtime_ns)
-        if key not in self._read:
-            self._read[key] = _describe(file)
+        told = self._read.get(key) or _describe(file)
+        if told["readable"]:  # a file that is being recorded is locked, and readable later
+            self._read[key] = told
         found = [kind for kind in BESIDE if beside(file, kind).is_file()]
         written = datetime.fromtimestamp(stat.st_mtime, UTC).isoformat(timespec="seconds")
         links = {kind: f"/runs/{file.stem}/{kind}" for kind in found} | {"file": f"/runs/{file.stem}/file"}
@@ -65,7 +66,7 @@ class Runs:
             "name": file.stem,
             "written": written,
             "bytes": stat.st_size,
-            **self._read[key],
+            **told,
             "scores": _scores(file),
             "links": links,
         }
