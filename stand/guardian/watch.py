@@ -15,13 +15,14 @@ import signal
 import socket
 import sys
 import time
+from typing import Any
 
 REPLY_TIMEOUT = 0.06
 GIVE_UP = 10.0
 REPEAT = 0.1
 
 #: kind "tcp" with host and port, or "serial" with the device's path as host; telegrams in hex; limit in s; report path
-Order = dict  # type: ignore[type-arg]
+Order = dict[str, Any]
 
 
 class Line:

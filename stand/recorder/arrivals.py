@@ -5,7 +5,7 @@ from __future__ import annotations
 import h5py
 import numpy as np
 
-from stand.clock import GaugeStream, RingStream
+from stand.clock.model import GaugeStream, RingStream
 
 Stream = GaugeStream | RingStream
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 from collections.abc import Mapping
 from datetime import UTC, datetime
@@ -17,6 +18,15 @@ from stand.recorder.arrivals import Stream, read_streams
 from stand.recorder.layout import TEXT
 from stand.recording.model import CHANNELS
 
+CLOCK_UNITS = {
+    "offset": "s",
+    "period": "s",
+    "drift": "1",
+    "residual": "s",
+    "fit_sigma": "s",
+    "sigma": "s",
+    "latency": "s",
+}
 PACK: Mapping[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
 
 
@@ -95,50 +105,55 @@ def _write_data(entry: h5py.Group, aligned: Aligned, stand: Stand) -> None:
     data = entry.create_group("data")
     names = [channel.name for channel in CHANNELS[stand.setup.system]]
     data.attrs.update({"NX_class": "NXdata", "signal": "weight_position", "axes": "time"})
-    data.attrs.update({"provisional": False, "host_origin": aligned.origin, "derived": aligned.derived})
+    data.attrs.update({"provisional": False, "host_origin": aligned.origin})
+    data.attrs["derived"] = ", ".join(sorted(aligned.derived)) or "none"
     data.attrs["auxiliary_signals"] = [name for name in names if name != "weight_position"]
     data.create_dataset("time", data=aligned.time, **PACK).attrs["units"] = "s"
     for channel in CHANNELS[stand.setup.system]:
         dataset = data.create_dataset(channel.name, data=aligned.channels[channel.name], **PACK)
         dataset.attrs["units"] = channel.unit
+        if channel.name in aligned.zeros:
+            dataset.attrs["zero"] = aligned.zeros[channel.name]
         if channel.name in aligned.uncertainty:
             dataset.attrs["uncertainty"] = aligned.uncertainty[channel.name]
     data.create_dataset("quality", data=np.asarray(aligned.quality, np.uint8), **PACK)
 
 
 def _write_clock(group: h5py.Group, aligned: Aligned, name: str) -> None:
-    lost = sum(loss[3] for loss in aligned.losses if loss[0] == name)
-    group["frames_lost"][()] = lost
+    group["frames_lost"][()] = sum(loss.count for loss in aligned.losses if loss.instrument == name)
     clock = aligned.clocks.get(name)
     if clock is None:
         return
     fitted = group.create_group("clock")
-    for part, unit in (("offset", "s"), ("drift", "1"), ("residual", "s"), ("sigma", "s")):
-        fitted.create_dataset(part, data=float(getattr(clock, part))).attrs["units"] = unit
+    for part, value in dataclasses.asdict(clock).items():
+        dataset = fitted.create_dataset(part, data=value)
+        if part in CLOCK_UNITS:
+            dataset.attrs["units"] = CLOCK_UNITS[part]
 
 
 def _end(new: h5py.File, aligned: Aligned, outcome: str, why: str, complete: bool) -> None:
     entry, events = new["entry"], new["entry/events"]
     entry.create_dataset("end_time", data=datetime.now(UTC).isoformat(timespec="milliseconds"))
-    lines = [(time, "gap", f"{name}: {count} frames lost") for name, _, time, count in aligned.losses]
-    _add_events(events, lines)
+    _add_gaps(events, [(gap.time, f"{gap.instrument}: {gap.count} frames lost") for gap in aligned.losses])
     times = events["host_time"][()] - aligned.origin
     events.create_dataset("time", data=times).attrs["units"] = "s"
     events.attrs.update({"outcome": outcome, "why": why, "complete": complete})
 
 
-def _add_events(events: h5py.Group, lines: list[tuple[float, str, str]]) -> None:
-    """Merge further lines into the events, in the order of time."""
-    if not lines:
+def _add_gaps(events: h5py.Group, gaps: list[tuple[float, str]]) -> None:
+    """Merge the gaps into the events, in the order of time."""
+    if not gaps:
         return
-    times = np.concatenate((events["host_time"][()], [line[0] for line in lines]))
+    times = [*events["host_time"][()], *(time for time, _ in gaps)]
     order = np.argsort(times, kind="stable")
-    columns = {"host_time": times}
-    for index, name in ((1, "kind"), (2, "text")):
-        columns[name] = np.concatenate((events[name][()], [line[index].encode()[:240] for line in lines]))
+    columns = {
+        "host_time": times,
+        "kind": [*events["kind"][()], *(b"gap" for _ in gaps)],
+        "text": [*events["text"][()], *(text.encode()[:240] for _, text in gaps)],
+    }
     for name, values in columns.items():
         attributes = dict(events[name].attrs)
         del events[name]
-        kept = np.empty(len(values), "f8" if name == "host_time" else TEXT)
-        kept[:] = values[order]
+        kept = np.empty(len(times), "f8" if name == "host_time" else TEXT)
+        kept[:] = [values[i] for i in order]
         events.create_dataset(name, data=kept, dtype=kept.dtype).attrs.update(attributes)

@@ -12,7 +12,8 @@ import numpy as np
 
 from stand.config import Stand, load_stand_text
 from stand.errors import InputError
-from stand.recorder.arrivals import RingStream, Stream, read_streams
+from stand.clock.model import RingStream
+from stand.recorder.arrivals import Stream, read_streams
 from stand.recorder.finish import finish_file
 from stand.recorder.layout import GRID_RATE
 

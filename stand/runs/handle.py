@@ -13,7 +13,7 @@ from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from pathlib import Path
 
-from stand.clock import LiveBlock
+from stand.clock.model import LiveBlock
 from stand.config import Stand
 from stand.guardian.watch import Line, stop_drive
 from stand.runs.link import StopRequest, is_last

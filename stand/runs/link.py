@@ -5,13 +5,13 @@ from __future__ import annotations
 import copyreg
 import queue
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 from types import MappingProxyType
 from typing import Any
 
-from stand.clock import LiveBlock
-from stand.runs.messages import Failed, Finished
+from stand.clock.model import LiveBlock
+from stand.runs.messages import Failed, Finished, Progress
 
 #: live blocks that may wait for a slow reader, before further ones are dropped
 LIVE_WAITING = 100
@@ -52,6 +52,8 @@ class Tap:
                     self.dropped += 1
                     return
                 self._waiting += 1
+        if isinstance(message, Progress):
+            message = replace(message, published=self.published, dropped=self.dropped)
         self._queue.put(message)
 
     def close(self, timeout: float = 2.0) -> None:

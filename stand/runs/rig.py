@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from types import TracebackType
 
-from stand.clock import LiveBlock
+from stand.clock.model import LiveBlock
 from stand.config import Stand
 from stand.drive.drive import Drive
 from stand.errors import DeviceError

@@ -13,7 +13,7 @@ from stand.excitation.plan import Plan, plan
 from stand.recorder import FilePlan, Recorder
 from stand.recorder.finish import finish_file
 from stand.runs.checks import await_standstill, check_rest_force, check_state, go_to_rest, identify
-from stand.runs.messages import Finished, Outcome, Phase
+from stand.runs.messages import Finished, Outcome, Phase, Progress
 from stand.runs.order import RunOrder
 from stand.runs.rig import Rig
 from stand.runs.rules import guide_rule, preparing_rules, standing_rules
@@ -21,6 +21,7 @@ from stand.runs.streams import stream_specs
 
 AFTER_TRIP = 0.3
 LATE = 0.1
+TELL = 0.25
 GRID_RATE = 2000.0
 
 
@@ -161,6 +162,7 @@ class Moment:
     motion: Plan
     span: Span
     _phases: list[tuple[float, str]] = field(default_factory=list)
+    _told: float = 0.0
 
     def begin(self, started: float) -> None:
         """The motion's clock starts, at its first rest: the grid's sample 0."""
@@ -175,6 +177,9 @@ class Moment:
         elapsed = time.monotonic() - self.span.origin
         while self._phases and elapsed >= self._phases[0][0]:
             announce(self.rig, self._phases.pop(0)[1])
+        if elapsed >= self._told + TELL:
+            self._told = elapsed
+            self.rig.publish(Progress(elapsed, self.motion.duration, 0, 0))
         return self.rig.halt.wanted() or self.rig.guardian.check() is not None
 
     def end(self) -> None:
