@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from api.experiment import Experiment, State
@@ -12,9 +12,8 @@ from stand.clock import LiveBlock
 from stand.runs import Failed, Finished, Health, Outcome, Phase, Progress, Trip
 
 if TYPE_CHECKING:
-    from twin.live import LiveTwin
-
     from stand.runs import Event
+    from twin.live import LiveScore, LiveTwin
 
 #: the record is published this often while only time goes on, s
 EVERY = 0.25
@@ -25,9 +24,8 @@ ENDS = {Outcome.FINISHED: State.FINISHED, Outcome.STOPPED: State.STOPPED, Outcom
 class Follower:
     """Reads a run's events to their end in the calling thread.
 
-    changed(experiment): the record changed. sampled(block, simulated, score, latency): samples came; simulated
-    is {"u": [n], "F": [n]} or None, latency s from the block's oldest sample to now. health(instruments): once
-    a second. now: CLOCK_MONOTONIC, s.
+    changed(experiment): the record changed. sampled(block, score, latency): samples came; latency s from the
+    block's oldest sample to now. health(health): once a second. now: CLOCK_MONOTONIC, s.
     """
 
     def __init__(
@@ -36,7 +34,7 @@ class Follower:
         twin: LiveTwin | None,
         *,
         changed: Callable[[Experiment], None],
-        sampled: Callable[[LiveBlock, Mapping[str, Any] | None, Mapping[str, Any] | None, float], None],
+        sampled: Callable[[LiveBlock, LiveScore | None, float], None],
         health: Callable[[Health], None] = lambda health: None,
         now: Callable[[], float] = time.monotonic,
     ) -> None:
@@ -81,12 +79,9 @@ class Follower:
         self.tell(state=State.FAILED, why=str(event), run=event.path.stem if event.path else None)
 
     def _block(self, block: LiveBlock) -> None:
-        simulated = score = None
-        if self.twin is not None:
-            live = self.twin.push(block.time, block.x, block.u, block.F)
-            simulated, score = {"u": live.u, "F": live.F}, live.to_json()
+        score = self.twin.push(block.time, block.x, block.u, block.F) if self.twin is not None else None
         span = float(block.time[-1] - block.time[0])
-        self._sampled(block, simulated, score, self.latency.add(self._now() - block.newest_arrival + span))
+        self._sampled(block, score, self.latency.add(self._now() - block.newest_arrival + span))
         elapsed = float(block.time[-1])
         if not self.experiment.streaming or elapsed - self.experiment.elapsed > EVERY:
             self.tell(streaming=True, elapsed=elapsed, latency=self.latency.quantiles())

@@ -55,6 +55,7 @@ class Operator:
         self.hub.bind(loop)
         self._tell_stand("connecting", resting(self.stand, "unknown"))
         threading.Thread(target=self._look_now_and_then, name="status", daemon=True).start()
+        threading.Thread(target=make_twin, args=("force", self.stand.setup), name="warm", daemon=True).start()
 
     def close(self) -> None:
         """Stop what runs, in good order, and end the jobs."""

@@ -36,9 +36,8 @@ def ordered(order: Order) -> Recording:
 
 def simulate(run: Recording, name: str) -> tuple[Simulated, float]:
     """The run's motion through the model `name`, and how long that took, s (compilation not counted)."""
-    from twin.simulate import simulate as through
-
     from twin.model import Start
+    from twin.simulate import simulate as through
 
     model, parameters, setup = find_model(name, run.setup)
     if run.setup.system not in model.systems:

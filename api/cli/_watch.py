@@ -15,11 +15,13 @@ from rich.text import Text
 from api.cli._console import cell, err
 from api.experiment import Experiment, State
 from api.follow import Follower
+from api.live import score_view
 
 if TYPE_CHECKING:
     from stand.clock import LiveBlock
     from stand.config import Stand
     from stand.runs import RunHandle, RunOrder
+    from twin.live import LiveScore
 
 SHOWN_EVERY = 0.15
 GOOD = frozenset({State.FINISHED, State.STOPPED})
@@ -62,21 +64,19 @@ class _Screen:
         self._experiment: Experiment | None = None
         self._values: dict[str, float] = {}
         self._score: Mapping[str, Any] = {}
-        self._latency = 0.0
 
     def changed(self, experiment: Experiment) -> None:
         """A new record."""
         self._experiment = experiment
         self._show(force=not experiment.active)
 
-    def sampled(
-        self, block: LiveBlock, simulated: Mapping[str, Any] | None, score: Mapping[str, Any] | None, latency: float
-    ) -> None:
+    def sampled(self, block: LiveBlock, score: LiveScore | None, latency: float) -> None:
         """New samples."""
-        self._values = {"x": 1e3 * float(block.x[-1]), "u": 1e3 * float(block.u[-1]), "F": float(block.F[-1])}
-        if simulated is not None:
-            self._values |= {"u_sim": 1e3 * float(simulated["u"][-1]), "F_sim": float(simulated["F"][-1])}
-        self._score, self._latency = score or {}, latency
+        self._values |= {"x": 1e3 * float(block.x[-1]), "u": 1e3 * float(block.u[-1]), "F": float(block.F[-1])}
+        if score is not None:
+            self._score = score_view(score)
+            if len(score.simulated_u):
+                self._values |= {"u_sim": 1e3 * float(score.simulated_u[-1]), "F_sim": float(score.simulated_F[-1])}
         self._show()
 
     def _show(self, *, force: bool = False) -> None:

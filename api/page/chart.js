@@ -44,8 +44,11 @@ export class Strip {
 
   clear() { Object.values(this.rings).forEach((ring) => ring.clear()); this.range = null; }
 
-  push(t, buckets) {
-    for (const { name } of this.series) if (buckets[name]) this.rings[name].push(t, ...buckets[name]);
+  push(block) {
+    for (const { name } of this.series) {
+      const t = name.endsWith("_sim") ? block.t_sim : block.t;
+      if (block[name] && t) this.rings[name].push(t, ...block[name]);
+    }
   }
 
   window() {

@@ -27,9 +27,9 @@ const all = () => Object.values(strips);
 export function clearCharts() { all().forEach((strip) => strip.clear()); dirty = true; }
 
 export function pushBlock(block) {
-  for (const strip of all()) strip.push(block.t, block);
+  for (const strip of all()) strip.push(block);
   const last = (pair) => (pair?.[1]?.length ? (pair[0].at(-1) + pair[1].at(-1)) / 2 : null);
-  now = { u: last(block.u), F: last(block.F), x: last(block.x) };
+  if (block.t) now = { u: last(block.u), F: last(block.F), x: last(block.x) };
   dirty = true;
 }
 

@@ -42,7 +42,7 @@ function block(message) {
   if (message.experiment !== state.seen) return;
   state.lastBlock = performance.now();
   if (message.latency !== undefined) state.latency = message.latency;
-  if (message.t) pushBlock(message);
+  pushBlock(message);
   if (message.score) showScores(message.score);
 }
 

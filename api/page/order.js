@@ -11,12 +11,16 @@ export async function prepareOrder(onProblem) {
   form.addEventListener("input", (event) => { if (event.target.name !== "comment" && event.target.name !== "model") choose(null); later(); });
   form.addEventListener("submit", (event) => { event.preventDefault(); begin(onProblem); });
   stopButton.addEventListener("click", () => running && post(`/experiments/${running}/stop`).catch(onProblem));
-  const [situations, models] = await Promise.all([get("/situations"), get("/models")]);
-  presets = situations;
+  presets = await get("/situations");
   document.getElementById("situations").replaceChildren(...presets.map((preset) =>
     el("button", { type: "button", "aria-pressed": "false", "data-name": preset.name, title: describe(preset), onclick: () => apply(preset) }, preset.name)));
-  document.getElementById("model").replaceChildren(...models.map((m) => el("option", { value: m.name, selected: m.name === "force" }, m.name)));
+  fillModels().catch(onProblem);
   if (presets.length) apply(presets.find((preset) => preset.name === "2") || presets[0]); else check();
+}
+
+async function fillModels() {
+  const models = await get("/models");
+  document.getElementById("model").replaceChildren(...models.map((m) => el("option", { value: m.name, title: m.title, selected: m.name === "force" }, m.name)));
 }
 
 function describe(p) {
