@@ -10,9 +10,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from stand.clock.model import RingStream
 from stand.config import Stand, load_stand_text
 from stand.errors import InputError
-from stand.clock.model import RingStream
 from stand.recorder.arrivals import Stream, read_streams
 from stand.recorder.finish import finish_file
 from stand.recorder.layout import GRID_RATE

@@ -70,10 +70,10 @@ class RunHandle:
         """End the run in good order: the motion slows down, the recording is closed."""
         self._send(StopRequest(reason))
 
-    def emergency_stop(self, reason: str = "emergency stop by the operator") -> None:
-        """Quick stop now: told to the acquisition, and sent to the drive from here as well."""
+    def emergency_stop(self, reason: str = "emergency stop by the operator") -> bool:
+        """Quick stop now: told to the acquisition, and sent from here as well; True when the drive has answered."""
         self._send(StopRequest(reason, emergency=True))
-        emergency_stop(self._stand)
+        return emergency_stop(self._stand)
 
     def poll(self) -> int | None:
         """The process's exit code, None while it runs."""

@@ -56,8 +56,10 @@ def _plain(value: object) -> object:
 
 
 def _home(rig: Rig, order: StepOrder) -> dict[str, object]:
+    """Find the reference, then go to where runs rest."""
     with _Moving(rig):
         rig.drive.home(should_stop=rig.halt.wanted)
+        rig.drive.move_to(rig.stand.drive.rest_travel, should_stop=rig.halt.wanted)
     return {"travel": rig.drive.status().travel}
 
 

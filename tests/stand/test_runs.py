@@ -55,7 +55,7 @@ def test_an_acquisition_that_dies_is_reported_as_such() -> None:
 
 
 def test_a_stand_that_is_not_there_is_named() -> None:
-    with pytest.raises(DeviceError, match="127.0.0.1:502"):
+    with pytest.raises(DeviceError, match=r"127\.0\.0\.1:502"):
         status(load_stand())
 
 
