@@ -52,7 +52,7 @@ def relax(bristle, velocity, creep, presliding, dt):  # type: ignore[no-untyped-
 def elongations(y, x, p):  # type: ignore[no-untyped-def]
     """Elongation of the weight strand and the drive strand."""
     rim = y[S] + y[SLIP]
-    d1, d2 = rim - y[U] + p.rest_stretch / p.share1, x - y[MOUNT] - rim + p.rest_stretch / p.share2
+    d1, d2 = rim - y[U] + p.rest_stretch / p.share1, x - y[MOUNT] - rim + p.rest_stretch2 / p.share2
     if p.eccentricity != 0.0:
         d1 += p.eccentricity * (math.sin(y[S] / p.radius + p.eccentric_phase) - math.sin(p.eccentric_phase))
     return d1, d2
@@ -184,7 +184,7 @@ def rates(t, y, x, vx, ax, bristle, bearing, contact, p, tables, inner, report, 
     if p.compliance > 0.0:
         strand, t2 = (
             (a2 + b2 * dd2 if contact[DRIVE_STRAND] else 0.0),
-            max(0.0, p.rest_tension + y[MOUNT] / p.compliance),
+            max(0.0, p.rest_pull + y[MOUNT] / p.compliance),
         )
         dy[MOUNT] = max(0.0, strand / b2) if t2 == 0.0 else (strand - t2) / b2
         dd2 -= dy[MOUNT]

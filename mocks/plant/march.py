@@ -11,9 +11,11 @@ from mocks.plant.forces import (
     ACCELERATION,
     CONTACTS,
     E1,
+    E2,
     FORCE,
     FRICTION,
     Q1,
+    Q2,
     REPORTS,
     SIZE,
     T1,
@@ -181,7 +183,7 @@ def servo(state, targets, dt, bandwidth, limit, out):  # type: ignore[no-untyped
 def rest_state(physics: Physics) -> NDArray[np.float64]:
     """State of the stand hanging at rest with the drive at zero, float64 [SIZE]."""
     y = np.zeros(SIZE)
-    for side, share in enumerate((physics.share1, physics.share2)):
-        y[Q1 + side] = physics.rest_stretch / share
-        y[E1 + side] = physics.creep * physics.rest_tension / share
+    p = physics
+    y[Q1], y[E1] = p.rest_stretch / p.share1, p.creep * p.rest_tension / p.share1
+    y[Q2], y[E2] = p.rest_stretch2 / p.share2, p.creep * p.rest_pull / p.share2
     return y

@@ -81,12 +81,16 @@ class Physics:
     shake_phase: float = 0.0
     load_friction: float = 0.0  # N per N of weight-strand tension above rest, squared
     tables: float = 0.0  # 1: the tables hold something
-    rest_stretch: float = 0.0  # of the whole fibre under the rest tension, creep included; set by `record`
+    rest_stretch: float = 0.0  # of the whole fibre under the weight's rest tension, creep included; set by `record`
+    rest_stretch2: float = 0.0  # likewise under the tension that balances it on the drive's side of the pulley
+    rest_pull: float = 0.0  # that tension
     step: float = 25e-6
 
     def record(self) -> NDArray[np.void]:
         """A record array of length 1 with these fields."""
+        self.rest_pull = self.rest_tension * (1.0 + self.eccentricity / self.radius * math.cos(self.eccentric_phase))
         self.rest_stretch = self.stretch(self.rest_tension) + self.creep * self.rest_tension
+        self.rest_stretch2 = self.stretch(self.rest_pull) + self.creep * self.rest_pull
         dtype = np.dtype([(f.name, np.float64) for f in fields(self)])
         return np.array([astuple(self)], dtype=dtype)
 
