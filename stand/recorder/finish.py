@@ -16,7 +16,7 @@ from stand.clock import Aligned, align
 from stand.config import Stand
 from stand.recorder.arrivals import Stream, read_streams
 from stand.recorder.layout import TEXT
-from stand.recording.model import CHANNELS
+from stand.recording.model import CHANNELS, Quality
 
 CLOCK_UNITS = {
     "offset": "s",
@@ -40,22 +40,32 @@ def finish_file(
     why: str = "",
     complete: bool = True,
     streams: Mapping[str, Stream] | None = None,
+    fault: float | None = None,
 ) -> Aligned:
     """Replace the file at `path` by its final form; until the last moment the old one stays readable.
 
     origin: host time of grid sample 0, s; count: samples. streams: other arrivals than the file's own (a replay's
-    injected ones), which are then what the file keeps. complete: False for what was recovered.
+    injected ones), which are then what the file keeps. complete: False for what was recovered. fault: host time from
+    which on a fault was active.
     """
     packed = path.with_name(f".{path.name}.closing")
     packed.unlink(missing_ok=True)
     with h5py.File(path, "r") as old, h5py.File(packed, "w") as new:
         used = streams if streams is not None else read_streams(old)
-        aligned = align(used, stand, origin=origin, count=count)
+        aligned = _marked(align(used, stand, origin=origin, count=count), fault)
         _pack(old, new, aligned, stand, streams or {})
         _end(new, aligned, outcome, why, complete)
         new.flush()
     _settle(packed, path)
     return aligned
+
+
+def _marked(aligned: Aligned, fault: float | None) -> Aligned:
+    if fault is None:
+        return aligned
+    quality = aligned.quality.copy()
+    quality[aligned.time >= fault - aligned.origin] |= Quality.FAULT
+    return dataclasses.replace(aligned, quality=quality)
 
 
 def _settle(packed: Path, path: Path) -> None:

@@ -11,11 +11,11 @@ from typing import Protocol
 from stand.block import Block
 from stand.clock import LiveAligner, LiveBlock
 from stand.config import Stand
-from stand.errors import DeviceError
+from stand.errors import StandError
 from stand.recorder import Happening, Recorder, Taken
 from stand.runs.health import Meter
 from stand.runs.messages import Health
-from stand.safety import Supervisor, Trip
+from stand.safety import Supervisor
 from stand.transport.raw import Raw
 from stand.transport.readers import GaugeReader, RingReader
 
@@ -41,7 +41,7 @@ def make_readers(stand: Stand) -> dict[str, Reader]:
 class Acquisition:
     """All streams at work. Every thread here only hands over; nothing waits for a slower one.
 
-    publish: gets the live blocks and the health, must not block. recorder: None while none is recording.
+    publish: gets the live blocks and the health, must not block. on_lost: told which link was lost, and how.
     """
 
     def __init__(
@@ -50,9 +50,11 @@ class Acquisition:
         readers: Mapping[str, Reader],
         supervisor: Supervisor,
         publish: Callable[[LiveBlock | Health], None],
+        on_lost: Callable[[str, str], None],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._stand, self._readers, self._supervisor, self._publish = stand, readers, supervisor, publish
+        self._on_lost = on_lost
         self._clock, self._recorder, self._aligner = clock, None, None
         self._live: queue.SimpleQueue[Block | None] = queue.SimpleQueue()
         self._thread = threading.Thread(target=self._serve_live, name="live", daemon=True)
@@ -97,13 +99,12 @@ class Acquisition:
             self._live.put(block)
 
     def lost(self, instrument: str, error: Exception) -> None:
-        """A reader lost its link: that is a trip while anything may move, and always an event."""
+        """A reader lost its link, in its own thread."""
         if not self.reading:
             return
-        self.note("lost", f"{instrument}: {error}")
         self.meters[instrument].lost = True
-        what = error.what if isinstance(error, DeviceError) else str(error)
-        self._supervisor.raise_trip(Trip("lost link", f"{instrument}: {what}", instrument, arrival=self._clock()))
+        self.note("lost", f"{instrument}: {error}")
+        self._on_lost(instrument, error.what if isinstance(error, StandError) else str(error))
 
     def note(self, kind: str, text: str) -> None:
         """A line for `/entry/events`."""

@@ -10,6 +10,7 @@ from stand.drive.cia402 import State
 from stand.errors import DeviceError, SafetyTrip
 
 if TYPE_CHECKING:
+    from stand.drive.drive import Drive
     from stand.runs.rig import Rig
 
 AT_REST = 0.0005
@@ -62,10 +63,10 @@ def go_to_rest(rig: Rig, travel: float, *, move: bool, home: bool) -> None:
         raise DeviceError("is not at its rest position", where="drive", value=found, remedy=remedy)
 
 
-def await_standstill(rig: Rig, timeout: float = 1.0) -> None:
+def await_standstill(drive: Drive, timeout: float = 1.0) -> None:
     """Until the drive says that it stands; DeviceError where it doesn't."""
     deadline = time.monotonic() + timeout
-    while abs(velocity := rig.drive.status().velocity) > STANDING:
+    while abs(velocity := drive.status().velocity) > STANDING:
         if time.monotonic() > deadline:
             raise DeviceError("still moves", where="drive", value=f"{velocity:.4f} m/s", remedy="Cut its power")
         time.sleep(0.01)

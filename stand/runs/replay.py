@@ -35,7 +35,7 @@ def perform_replay(rig: Rig, order: RunOrder, path: Path) -> Finished:
     try:
         _listen(rig, order, span)
     finally:
-        rig.acquisition.stop()
+        rig.end_reading()
         rig.publish(Phase("align", time.monotonic()))
         recorder.close()
     return _close(rig, order, path, span)
@@ -49,8 +49,7 @@ def _plan(rig: Rig, order: RunOrder, identities: dict[str, dict[str, str]]) -> F
 
 
 def _listen(rig: Rig, order: RunOrder, span: Span) -> None:
-    rig.acquisition.start()
-    rig.wait_for_samples()
+    rig.read_unwatched()
     span.origin = span.end = time.monotonic()
     rig.acquisition.align_from(span.origin)
     rig.publish(Phase("motion", span.origin, "replay"))
@@ -63,7 +62,7 @@ def _over(rig: Rig, order: RunOrder, span: Span) -> bool:
     now = time.monotonic()
     if order.seconds and now - span.origin >= order.seconds / max(order.speed, 1.0):
         return True
-    return all(meter.age(now) > SILENCE for meter in rig.acquisition.meters.values())
+    return all(meter.lost or meter.age(now) > SILENCE for meter in rig.acquisition.meters.values())
 
 
 def _close(rig: Rig, order: RunOrder, path: Path, span: Span) -> Finished:

@@ -12,7 +12,7 @@ from stand.errors import DeviceError, InputError, StandError
 from stand.excitation.plan import Plan, plan
 from stand.recorder import FilePlan, Recorder
 from stand.recorder.finish import finish_file
-from stand.runs.checks import await_standstill, check_rest_force, check_state, go_to_rest, identify
+from stand.runs.checks import check_rest_force, check_state, go_to_rest, identify
 from stand.runs.messages import Finished, Outcome, Phase, Progress
 from stand.runs.order import RunOrder
 from stand.runs.rig import Rig
@@ -71,9 +71,10 @@ def perform(rig: Rig, order: RunOrder, path: Path) -> Finished:
     try:
         _record(rig, recorder, motion, span, ending)
     finally:
-        _stop(rig)
-        rig.acquisition.stop()
+        announce(rig, "stop")
+        rig.come_to_rest()
         announce(rig, "align")
+        rig.end_reading()
         recorder.close()
     return close_run(rig, path, span, ending)
 
@@ -88,7 +89,8 @@ class Ending:
 def close_run(rig: Rig, path: Path, span: Span, ending: Ending) -> Finished:
     """Align and complete the file, and say how the run ended."""
     outcome, why = _outcome(rig, ending)
-    finish_file(path, rig.stand, origin=span.origin, count=span.count, outcome=outcome, why=why)
+    fault = rig.trip.arrival if rig.trip is not None else None
+    finish_file(path, rig.stand, origin=span.origin, count=span.count, outcome=outcome, why=why, fault=fault)
     announce(rig, "done")
     return Finished(path, outcome, why, rig.trip)
 
@@ -190,17 +192,3 @@ class Moment:
             time.sleep(AFTER_TRIP)  # what happened after the stop belongs to the record
             self.span.end = time.monotonic()
         time.sleep(LATE)
-
-
-def _stop(rig: Rig) -> None:
-    """The safe state: the drive at rest and no longer moving on its own; the guardian may rest only then."""
-    announce(rig, "stop")
-    try:
-        if rig.trip is None:
-            rig.drive.stop()
-        await_standstill(rig)
-    except StandError as error:
-        rig.acquisition.note("error", f"the drive did not confirm its stop: {error}")
-        rig.quick_stop.trigger()
-        rig.quick_stop.confirmed.wait(0.5)
-    rig.disarm()

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import time
 
 from stand.errors import DeviceError, SafetyTrip
-from stand.runs.checks import RestCheck, rest_force
+from stand.runs.checks import RestCheck, check_state, rest_force
 from stand.runs.messages import Finished, Outcome, Phase
 from stand.runs.order import Step, StepOrder
 from stand.runs.rig import Rig
@@ -18,7 +19,8 @@ LISTEN = 0.5
 def perform_step(rig: Rig, order: StepOrder) -> Finished:
     """Do one step on an unconnected rig; StandError where it can't be done."""
     rig.publish(Phase(order.step.value, time.monotonic()))
-    rig.connect()
+    if order.step is not Step.STATUS:
+        rig.connect()
     result = {
         Step.STATUS: _status,
         Step.HOME: _home,
@@ -33,22 +35,23 @@ def perform_step(rig: Rig, order: StepOrder) -> Finished:
 
 
 def _status(rig: Rig, order: StepOrder) -> dict[str, object]:
-    """The drive's state, and each gauge's identity, rate and mean value over half a second."""
-    identities = {name: reader.identify() for name, reader in rig.readers.items()}
-    rig.read([])
-    rig.halt.wait(LISTEN)
+    """What each device says of itself, by name; where one can't be reached its state says why. Nothing moves."""
+    problems = rig.connect_what_answers()
+    found: dict[str, object] = {name: {"state": "lost", "problem": problem} for name, problem in problems.items()}
+    with contextlib.suppress(DeviceError):  # a silent one shows as stale
+        rig.read_unwatched()
+        rig.halt.wait(LISTEN)
     now = time.monotonic()
-    found: dict[str, object] = {}
-    for name, meter in rig.acquisition.meters.items():
+    for name, reader in rig.readers.items():
+        meter = rig.acquisition.meters[name]
         health, recent = meter.read(now), meter.recent()
-        found[name] = {
-            **identities[name],
-            "state": health.state,
-            "samples": health.samples,
-            "value": float(recent.mean()) if len(recent) else None,
-        }
-    status = dataclasses.asdict(rig.drive.status())
-    return {**found, "drive_status": {name: _plain(value) for name, value in status.items()}}
+        state = {"state": health.state, "samples": health.samples}
+        value = float(recent.mean()) if len(recent) else None
+        found[name] = {**rig.identities.get(name, {}), **state, "value": value}
+    if "drive" not in problems:
+        status = dataclasses.asdict(rig.drive.status())
+        found["drive_status"] = {name: _plain(value) for name, value in status.items()}
+    return found
 
 
 def _plain(value: object) -> object:
@@ -98,16 +101,13 @@ class _Moving:
         self._rig = rig
 
     def __enter__(self) -> None:
+        check_state(self._rig)
         self._rig.arm()
         self._rig.read(preparing_rules(self._rig.stand))
-        if self._rig.drive.status().fault_code:
-            raise DeviceError("is in fault", where="drive", remedy="Find the cause, then reset it")
         self._rig.drive.enable()
 
     def __exit__(self, *_: object) -> None:
-        if self._rig.trip is None:
-            self._rig.drive.stop()
-        self._rig.disarm()
+        self._rig.come_to_rest()
 
 
 __all__ = ["RestCheck", "perform_step"]
