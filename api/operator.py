@@ -10,6 +10,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from api.catalogue import model_names
 from api.devices import resting, running
 from api.experiment import Experiment, State
 from api.follow import Follower
@@ -81,7 +82,7 @@ class Operator:
 
         excitation, setup = order.excitation(), order.setup(self.stand)
         plan = make_plan(excitation, self.stand)
-        twin = make_twin(order.model, setup)
+        twin = make_twin(self._model(order.model), setup)
         self._take()
         try:
             self._refuse_after_trip()
@@ -143,6 +144,10 @@ class Operator:
     def _take(self) -> None:
         if not self._busy.acquire(timeout=3.0):
             raise Conflict("the stand is busy", where="stand", remedy="Wait for the experiment to end, or stop it")
+
+    def _model(self, name: str) -> str:
+        """A fibre model's name as it is; a run's name stands for the extended model that its diagnosis found."""
+        return name if name in model_names() else str(self.runs.file(name, "model"))
 
     def _refuse_after_trip(self) -> None:
         if self._tripped:

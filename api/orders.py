@@ -43,10 +43,13 @@ class Order(BaseModel):
     ramp: float | None = Field(default=None, description="s from one level to the other, trapezoid only")
     cycles: float | None = Field(default=None, description="whole cycles")
     duration: float | None = Field(default=None, description="s of motion, where cycles are not given")
-    added_mass: bool | None = Field(default=None, description="the added mass is mounted")
+    added_mass: bool | float | None = Field(
+        default=None, description="whether the added mass (5.035 kg) is mounted, or how much is, kg"
+    )
     comment: Annotated[str, Field(max_length=200)] = ""
     model: str = Field(
-        default="force", description="the model that runs beside, of GET /models, or an extended model's file"
+        default="force",
+        description="the model that runs beside: of GET /models, or a run's name for the extended model of its diagnosis",
     )
 
     def excitation(self) -> Excitation:
@@ -62,12 +65,19 @@ class Order(BaseModel):
 
     def setup(self, stand: Stand) -> Setup:
         """The stand's setup with or without the added mass, as ordered."""
+        mass = self.mass()
+        return stand.setup if mass is None else stand.setup.with_values(added_mass=mass)
+
+    def mass(self) -> float | None:
+        """The added mass, kg; None where the order leaves it as the stand's setup has it."""
         base = self._situation()
-        added = self.added_mass if self.added_mass is not None else bool(base and base.added_mass)
-        mass = (base.added_mass if base and base.added_mass else ADDED_MASS) if added else 0.0
-        if self.added_mass is None and base is None:
-            return stand.setup
-        return stand.setup.with_values(added_mass=mass)
+        if self.added_mass is None:
+            return base.added_mass if base else None
+        if isinstance(self.added_mass, bool):
+            return ADDED_MASS if self.added_mass else 0.0
+        if not 0.0 <= self.added_mass < float("inf"):
+            raise InputError("must be 0 or more", where="added_mass", value=self.added_mass, remedy="Give it in kg")
+        return self.added_mass
 
     def _situation(self) -> Situation | None:
         if self.situation is None:

@@ -43,15 +43,9 @@ def command(
     order = checked(
         Order, {**fields, "added_mass": added_mass, "situation": situation, "comment": comment, "model": model}
     )
-    on = serve_arguments(hide, seed, added_mass=bool(added_mass) or _heavy(order))
+    on = serve_arguments(hide, seed, added_mass=bool(order.mass()))
     with configured(stand, simulated=simulated, arguments=on) as (rig, _):
         write_json(execute(order, rig, out), json)
-
-
-def _heavy(order: Order) -> bool:
-    from api.orders import situation
-
-    return order.added_mass is None and order.situation is not None and situation(order.situation).added_mass > 0
 
 
 def execute(order: Order, rig: Any, folder: Path | None, *, title: str = "") -> dict[str, Any]:

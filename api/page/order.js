@@ -18,9 +18,12 @@ export async function prepareOrder(onProblem) {
   if (presets.length) apply(presets.find((preset) => preset.name === "2") || presets[0]); else check();
 }
 
+// The fibre models, and the extended models that diagnoses of runs have found.
 async function fillModels() {
-  const models = await get("/models");
-  document.getElementById("model").replaceChildren(...models.map((m) => el("option", { value: m.name, title: m.title, selected: m.name === "force" }, m.name)));
+  const [models, runs] = await Promise.all([get("/models"), get("/runs")]);
+  const extended = runs.filter((run) => run.links.model).map((run) => el("option", { value: run.name }, `extended by ${run.name}`));
+  document.getElementById("model").replaceChildren(
+    ...models.map((m) => el("option", { value: m.name, title: m.title, selected: m.name === "force" }, m.name)), ...extended);
 }
 
 function describe(p) {
