@@ -1,4 +1,8 @@
-"""Band matrices with one bordering row and column, LU without pivoting (the mass keeps the diagonal heavy)."""
+"""Band matrices, LU without pivoting (the mass keeps the diagonal heavy), for half band widths known when compiled.
+
+a[i, k + j - i] holds the element (i, j), |i - j| <= k, for i < n; both the matrix and the right-hand side carry k
+rows of padding behind the last unknown so that no loop has an edge.
+"""
 
 from __future__ import annotations
 
@@ -6,31 +10,58 @@ from twin.kernels.jit import compiler
 
 compiled = compiler("fibre")
 
+_FAST = {"contract", "reassoc", "nsz", "arcp"}
 
-@compiled("void(float64[:,::1], int64, int64)")
-def factor(a, n, k):  # type: ignore[no-untyped-def]
-    """LU in place; a[i, k + j - i] holds the element (i, j) for |i - j| <= k."""
+
+def _factor(a, n, k):  # type: ignore[no-untyped-def]
     for i in range(n):
         pivot = 1.0 / a[i, k]
-        for row in range(i + 1, min(i + k + 1, n)):
-            first = k + i - row
-            scale = a[row, first] * pivot
-            a[row, first] = scale
-            if scale != 0.0:
-                for j in range(1, k + 1):
-                    a[row, first + j] -= scale * a[i, k + j]
+        a[i, k] = pivot
+        for down in range(1, k + 1):
+            scale = a[i + down, k - down] * pivot
+            a[i + down, k - down] = scale
+            for j in range(1, k + 1):
+                a[i + down, k - down + j] -= scale * a[i, k + j]
 
 
-@compiled("void(float64[:,::1], float64[::1], int64, int64)")
-def solve(a, b, n, k):  # type: ignore[no-untyped-def]
-    """Solve with the factors of `factor`; b is overwritten by the solution."""
-    for i in range(1, n):
-        total = b[i]
-        for j in range(max(0, i - k), i):
-            total -= a[i, k + j - i] * b[j]
-        b[i] = total
+def _solve(a, b, n, k):  # type: ignore[no-untyped-def]
+    for i in range(n):
+        value = b[i]
+        for down in range(1, k + 1):
+            b[i + down] -= a[i + down, k - down] * value
     for i in range(n - 1, -1, -1):
         total = b[i]
-        for j in range(i + 1, min(i + k + 1, n)):
-            total -= a[i, k + j - i] * b[j]
-        b[i] = total / a[i, k]
+        for j in range(1, k + 1):
+            total -= a[i, k + j] * b[i + j]
+        b[i] = total * a[i, k]
+
+
+_factor_any = compiled("void(float64[:,::1], int64, int64)", fastmath=_FAST, inline="always")(_factor)
+_solve_any = compiled("void(float64[:,::1], float64[::1], int64, int64)", fastmath=_FAST, inline="always")(_solve)
+
+
+@compiled("void(float64[:,::1], int64, int64)", fastmath=_FAST)
+def factor(a, n, k):  # type: ignore[no-untyped-def]
+    """LU in place, the pivots inverted; the padding is overwritten. k: 3, 5 or 7."""
+    for i in range(n, n + k):
+        for j in range(2 * k + 1):
+            a[i, j] = 0.0
+    if k == 3:
+        _factor_any(a, n, 3)
+    elif k == 5:
+        _factor_any(a, n, 5)
+    else:
+        _factor_any(a, n, 7)
+
+
+@compiled("void(float64[:,::1], float64[::1], int64, int64)", fastmath=_FAST)
+def solve(a, b, n, k):  # type: ignore[no-untyped-def]
+    """Solve with the factors of `factor`; b is overwritten by the solution, its padding by zeros."""
+    for i in range(n, n + k):
+        b[i] = 0.0
+    if k == 3:
+        _solve_any(a, b, n, 3)
+    elif k == 5:
+        _solve_any(a, b, n, 5)
+    else:
+        _solve_any(a, b, n, 7)
