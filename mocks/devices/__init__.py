@@ -1,0 +1,1 @@
+"""The simulated instruments and what makes them run in real time."""

@@ -1,0 +1,228 @@
+"""A streaming gauge: samples on its own clock, its frames on the line, bytes handed over in their time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from time import monotonic
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocks.devices.clock import DeviceClock
+from mocks.ledger import DROPPED, FAULTY, OVERRUN, SPOILT, Rows
+from mocks.wire.line import Adapter, Line
+from mocks.wire.terminal import Terminal
+
+Float = NDArray[np.float64]
+
+
+class Head(Protocol):
+    """What makes one kind of gauge: samples to frames, and its answers to what the host sends."""
+
+    frame_bytes: int
+
+    def encode(self, values: Float, faulty: NDArray[np.bool_]) -> tuple[NDArray[np.uint8], Float]:
+        """Frames [n, frame_bytes] and the values that a reader will get."""
+        ...
+
+    def answers(self, data: bytes, gauge: Gauge) -> list[bytes]:
+        """Answers to what the host sent."""
+        ...
+
+
+@dataclass
+class Sensing:
+    """How the gauge measures. noise, step: sigma and quantum; zero: what it shows at the plant's zero;
+    conversion: s from the sample to its frame's first bit; limit: values beyond are faulty."""
+
+    noise: float
+    step: float
+    zero: float
+    conversion: float
+    limit: float
+
+
+@dataclass
+class Trouble:
+    """What is wrong with the gauge at present; times are true times up to which it lasts."""
+
+    drop: int = 0
+    corrupt: int = 0
+    silent: float = -np.inf
+    faulty: float = -np.inf
+    spike: float = -np.inf
+    spike_value: float = 0.0
+    broken: float = -np.inf
+
+
+@dataclass
+class Gauge:
+    """signal, truth: value at true times [n] as sensed and as it is. batch: frames handed over at once without a timer."""
+
+    name: str
+    head: Head
+    terminal: Terminal
+    clock: DeviceClock
+    sensing: Sensing
+    line: Line
+    adapter: Adapter
+    signal: Callable[[Float], Float]
+    truth: Callable[[Float], Float]
+    rng: np.random.Generator
+    log: Callable[[Rows], None]
+    rate: float = 2000.0
+    batch: int = 4
+    streaming: bool = True
+    trouble: Trouble = field(default_factory=Trouble)
+    counter: int = 0
+    tick: int = 0
+    newest: float = 0.0
+    tare: float = 0.0
+    lateness: float = np.inf
+    wake: float = -np.inf
+    release: float = -np.inf
+    delay: float = 0.0
+    _way: list[Rows] = field(default_factory=list)
+    _queued: int = 0
+    _gone: int = 0
+
+    def step(self, now: float) -> None:
+        """Everything that is due by now; `wake` says when to come again. The plant has been advanced to now."""
+        held, asked = self._watch(now)
+        if asked:
+            for reply in self.head.answers(self.terminal.read(), self):
+                self._queued += len(reply)
+                self.line.put(reply, now)
+        self._sample(now, held)
+        if not held:
+            self._forget()
+        elif now >= self.wake:
+            self._hand_over(now)
+        self._plan(now)
+
+    def _watch(self, now: float) -> tuple[bool, bool]:
+        if now < self.trouble.broken:
+            self.terminal.disconnect()
+        else:
+            self.terminal.connect()
+        return self.terminal.watched()
+
+    def _sample(self, now: float, held: bool) -> None:
+        last = int(np.floor(self.clock.device(now - self.sensing.conversion) * self.rate))
+        if last < self.tick:
+            return
+        ticks = np.arange(self.tick, last + 1)
+        self.tick = last + 1
+        if not self.streaming or not held:
+            self._miss(ticks)
+            return
+        self._measure(ticks)
+
+    def _miss(self, ticks: NDArray[np.int64]) -> None:
+        due = self.clock.true(ticks[-1:] / self.rate)
+        self.newest = float(self._read(due)[0])
+        self.counter += len(ticks)
+
+    def _read(self, times: Float) -> Float:
+        s = self.sensing
+        values = self.signal(times) + s.zero - self.tare + s.noise * self.rng.standard_normal(len(times))
+        values = values + np.where(times < self.trouble.spike, self.trouble.spike_value, 0.0)
+        return np.rint(values / s.step) * s.step if s.step else values
+
+    def _measure(self, ticks: NDArray[np.int64]) -> None:
+        times = self.clock.true(ticks / self.rate)
+        values = self._read(times)
+        faulty = (np.abs(values) > self.sensing.limit) | (times < self.trouble.faulty)
+        frames, told = self.head.encode(values, faulty)
+        self.newest = float(told[-1])
+        true = self.truth(times) + self.sensing.zero - self.tare
+        rows = Rows.of(self.counter + np.arange(len(ticks)), ticks / self.rate, times, told, true)
+        self.counter += len(ticks)
+        rows.flags[faulty] |= FAULTY
+        self._queue(rows, self._spoil(frames, rows))
+
+    def _spoil(self, frames: NDArray[np.uint8], rows: Rows) -> NDArray[np.uint8]:
+        trouble = self.trouble
+        for k in range(len(frames)):
+            if trouble.drop > 0:
+                trouble.drop -= 1
+                rows.flags[k] |= DROPPED
+            elif trouble.corrupt > 0:
+                trouble.corrupt -= 1
+                rows.flags[k] |= SPOILT
+                frames[k, self.rng.integers(self.head.frame_bytes)] ^= 0xFF
+        rows.flags[rows.true_time < trouble.silent] |= DROPPED
+        return frames
+
+    def _queue(self, rows: Rows, frames: NDArray[np.uint8]) -> None:
+        kept = rows.flags & DROPPED == 0
+        if np.any(kept):
+            rows.due[kept] = self.line.put_frames(frames[kept], rows.true_time[kept] + self.sensing.conversion)
+            sizes = np.where(kept, self.head.frame_bytes, 0)
+            rows.place[:] = self._queued + np.cumsum(sizes)
+            self._queued += int(sizes.sum())
+        self._way.append(rows)
+
+    def _hand_over(self, now: float) -> None:
+        data = self.line.take(self.release if self.adapter.timer else now - self.delay)
+        written = self.terminal.write(data) if data else 0
+        handed = monotonic()
+        end = self._gone + written
+        self._gone += len(data)
+        self._settle(end, handed)
+
+    def _settle(self, end: int, handed: float) -> None:
+        """Book the frames whose last byte went out, or was lost because the host's buffer was full."""
+        while self._way:
+            rows = self._way[0]
+            done = (rows.place <= self._gone) | (rows.flags & DROPPED != 0)
+            count = len(done) if done.all() else int(np.argmin(done))
+            if count == 0:
+                return
+            out, rest = rows.split(count)
+            lost = out.place > end
+            out.flags[lost & (out.flags & DROPPED == 0)] |= OVERRUN
+            out.handed[~lost & (out.flags & DROPPED == 0)] = handed
+            if np.isfinite(out.due).any():
+                self.lateness = min(self.lateness, handed - float(np.nanmax(out.due)))
+            self.log(out)
+            self._way[:1] = [rest] if len(rest) else []
+
+    def _forget(self) -> None:
+        self.line.clear()
+        self._way.clear()
+        self._gone = self._queued
+
+    def _plan(self, now: float) -> None:
+        """When the next bytes are to be handed over: after some whole frames, or with the adapter's tick."""
+        if now < self.wake:
+            return
+        self.delay = self.adapter.delay()
+        if self.adapter.timer:
+            self.release = float(self.adapter.tick_after(max(now, self.release)))
+            self.wake = self.release + self.delay
+            return
+        period = 1.0 / self.rate
+        first = float(self.clock.true(np.array([self.tick * period]))[0])
+        ready = first + (self.batch - 1) * period + self.sensing.conversion
+        self.wake = max(ready + self.head.frame_bytes * self.line.byte_time + self.delay, now + 1e-4)
+
+    def set_streaming(self, on: bool) -> None:
+        """Start or stop the stream."""
+        self.streaming = on
+
+    def set_rate(self, rate: float | None) -> float:
+        """A new sample rate in Hz, from now on; ValueError where the line can't carry it. Returns the rate."""
+        if rate is not None and rate != self.rate:
+            if not 0.0 < rate * self.head.frame_bytes * self.line.byte_time <= 1.0:
+                raise ValueError(f"{rate} Hz needs more than the line's {1.0 / self.line.byte_time:.0f} bytes a second")
+            start = float(self.clock.true(np.array([self.tick / self.rate]))[0])
+            self.clock, self.tick, self.rate = self.clock.rebased(start), 0, rate
+        return self.rate
+
+    def set_zero(self) -> None:
+        """Take the present value as zero."""
+        self.tare += self.newest
+        self.newest = 0.0

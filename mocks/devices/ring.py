@@ -1,0 +1,58 @@
+"""The counted position ring that a NanoJ program of 1 ms cycle keeps in the drive's outputs 2500h."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mocks.devices.clock import DeviceClock
+
+Float = NDArray[np.float64]
+
+DEPTH = 31
+RATE = 1000.0
+UNIT = 1e-7  # m
+Sampled = Callable[[NDArray[np.int64], Float, Float, Float], None]
+
+
+class Ring:
+    """Sample k, taken at drive time k ms, stands in cell k mod 31 as i32 of 0.1 um; sub 1 counts the samples.
+
+    encoder: (resolution, noise) m. sampled: told of every batch (counter, true time, value, true value).
+    """
+
+    def __init__(
+        self, clock: DeviceClock, encoder: tuple[float, float], rng: np.random.Generator, sampled: Sampled
+    ) -> None:
+        self.clock, self.rng, self.sampled = clock, rng, sampled
+        self.resolution, self.noise = encoder
+        self.count = 0
+        self.cells = np.zeros(DEPTH, np.int32)
+
+    def measure(self, position: Float) -> Float:
+        """What the encoder makes of positions [n]."""
+        noisy = position + self.noise * self.rng.standard_normal(len(position))
+        return np.rint(noisy / self.resolution) * self.resolution if self.resolution else noisy
+
+    def record(self, times: Float, position: Float) -> None:
+        """Take every sample that is due by times[-1]; times [n] are the true times of positions [n]."""
+        last = int(np.floor(self.clock.device(float(times[-1])) * RATE))
+        if last < self.count:
+            return
+        counter = np.arange(self.count, last + 1)
+        due = self.clock.true(counter / RATE)
+        true = np.interp(due, times, position)
+        counts = np.rint(self.measure(true) / UNIT).astype(np.int64)
+        self.cells[counter % DEPTH] = counts
+        self.count = last + 1
+        self.sampled(counter, due, counts * UNIT, true)
+
+    def registers(self, word_order: str) -> list[int]:
+        """The 64 registers at 2000: number of samples so far, then the cells."""
+        words = struct.unpack(">64H", struct.pack(">I31i", self.count & 0xFFFFFFFF, *self.cells.tolist()))
+        if word_order == "big":
+            return list(words)
+        return [words[i ^ 1] for i in range(64)]

@@ -1,0 +1,97 @@
+"""The drive's profile generator: trapezoids of velocity from any state to a target, new ones at any time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+State = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Ramps:
+    """v_max m/s, acceleration and deceleration m/s^2, all positive."""
+
+    v_max: float
+    acceleration: float
+    deceleration: float
+
+
+class Trajectory:
+    """Pieces of constant acceleration: rows (time, position, velocity, acceleration); the last one holds on."""
+
+    def __init__(self, time: float, position: float) -> None:
+        self.pieces = np.array([[time, position, 0.0, 0.0]])
+
+    def sample(self, times: Float) -> Float:
+        """(x, x', x'') [n, 3] at times [n]."""
+        piece = self.pieces[np.maximum(np.searchsorted(self.pieces[:, 0], times, side="right") - 1, 0)]
+        t = times - piece[:, 0]
+        x, v, a = piece[:, 1], piece[:, 2], piece[:, 3]
+        return np.stack([x + t * (v + 0.5 * a * t), v + a * t, a], axis=-1)
+
+    def state(self, time: float) -> State:
+        """Position and velocity at a time."""
+        x, v, _ = self.sample(np.array([time]))[0]
+        return float(x), float(v)
+
+    def done(self, time: float) -> bool:
+        """Whether all is at its end by then."""
+        return bool(time >= self.pieces[-1, 0])
+
+    def move(self, time: float, target: float, ramps: Ramps) -> None:
+        """From the state at `time` to rest at `target`."""
+        start = self.state(time)
+        self.follow(time, start, move_pieces(start, target, ramps), target)
+
+    def stop(self, time: float, deceleration: float) -> None:
+        """From the state at `time` to rest with that deceleration."""
+        position, velocity = self.state(time)
+        span = abs(velocity) / deceleration
+        steps = [(span, -math.copysign(deceleration, velocity))]
+        self.follow(time, (position, velocity), steps, position + 0.5 * velocity * span)
+
+    def hold(self, time: float, position: float) -> None:
+        """At rest at `position` from `time` on."""
+        self.pieces = np.array([[time, position, 0.0, 0.0]])
+
+    def shift(self, by: float) -> None:
+        """The same motion in coordinates that lie elsewhere."""
+        self.pieces[:, 1] += by
+
+    def follow(self, time: float, start: State, steps: list[tuple[float, float]], target: float) -> None:
+        """From a state at `time` through (duration, acceleration) steps, then at rest at `target`."""
+        rows, (x, v) = [], start
+        for span, a in steps:
+            if span > 0.0:
+                rows.append((time, x, v, a))
+                x, v, time = x + span * (v + 0.5 * a * span), v + a * span, time + span
+        self.pieces = np.array([*rows, (time, target, 0.0, 0.0)])
+
+
+def move_pieces(start: State, target: float, ramps: Ramps) -> list[tuple[float, float]]:
+    """(duration, acceleration) of the quickest trapezoid from (position, velocity) to rest at target."""
+    position, velocity = start
+    acc, dec, v_max = ramps.acceleration, ramps.deceleration, ramps.v_max
+    sign = math.copysign(1.0, target - position - velocity * abs(velocity) / (2.0 * dec))
+    distance, v = sign * (target - position), sign * velocity
+    pieces = []
+    if v < 0.0:
+        pieces.append((-v / dec, dec))
+        distance, v = distance + v * v / (2.0 * dec), 0.0
+    peak = min(v_max, math.sqrt(max(0.0, 2.0 * acc * dec * distance + dec * v * v) / (acc + dec)))
+    if peak >= v:
+        pieces.append(((peak - v) / acc, acc))
+        distance -= (peak * peak - v * v) / (2.0 * acc)
+    else:
+        pieces.append(((v - peak) / dec, -dec))
+        distance -= (v * v - peak * peak) / (2.0 * dec)
+    cruise = distance - peak * peak / (2.0 * dec)
+    if peak > 0.0 and cruise > 0.0:
+        pieces.append((cruise / peak, 0.0))
+    pieces.append((peak / dec, -dec))
+    return [(span, sign * a) for span, a in pieces]

@@ -1,0 +1,79 @@
+"""A serial line: bytes leave one after another at the baud rate and are handed over as an adapter does."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
+
+
+@dataclass
+class Line:
+    """Bytes under way. byte_time: s for one byte (10 bits); free: when the line's last byte has left."""
+
+    byte_time: float
+    free: float = -np.inf
+    data: bytearray = field(default_factory=bytearray)
+    times: Float = field(default_factory=lambda: np.empty(0))
+
+    def put_frames(self, frames: NDArray[np.uint8], ready: Float) -> Float:
+        """Frames [n, size] that are ready at times [n]; returns when the last byte of each has left.
+
+        A frame starts when it is ready and the one before has left: end_k = L (k + 1) + max(free, max_j<=k (ready_j - L j)).
+        """
+        count, size = frames.shape
+        length = size * self.byte_time
+        order = np.arange(count)
+        starts = length * order + np.maximum(self.free, np.maximum.accumulate(ready - length * order))
+        ends: Float = starts + length
+        self._append(frames.tobytes(), (starts[:, None] + self.byte_time * np.arange(1, size + 1)).ravel())
+        self.free = float(ends[-1])
+        return ends
+
+    def put(self, data: bytes, ready: float) -> None:
+        """Some bytes, such as an answer."""
+        start = max(self.free, ready)
+        self._append(data, start + self.byte_time * np.arange(1, len(data) + 1))
+        self.free = start + self.byte_time * len(data)
+
+    def _append(self, data: bytes, times: Float) -> None:
+        self.data += data
+        self.times = np.concatenate([self.times, times])
+
+    def take(self, until: float) -> bytes:
+        """The bytes that have left by `until`."""
+        count = int(np.searchsorted(self.times, until, side="right"))
+        taken = bytes(self.data[:count])
+        del self.data[:count]
+        self.times = self.times[count:]
+        return taken
+
+    def clear(self) -> None:
+        """Forget what is under way."""
+        self.data.clear()
+        self.times = np.empty(0)
+
+
+@dataclass
+class Adapter:
+    """When bytes reach the host: at once, or with the ticks of an adapter's timer, each time a host's jitter later.
+
+    timer: s, 0 for none. jitter: (least, most) s. phase: s of the first tick.
+    """
+
+    rng: np.random.Generator
+    timer: float = 0.0
+    jitter: tuple[float, float] = (0.0, 0.0)
+    phase: float = 0.0
+
+    def tick_after(self, time: float) -> float:
+        """The first tick of the timer after a time."""
+        return self.phase + (np.floor((time - self.phase) / self.timer) + 1.0) * self.timer
+
+    def delay(self) -> float:
+        """The host's jitter this time, s."""
+        low, high = self.jitter
+        return float(self.rng.uniform(low, high)) if high > 0 else 0.0
