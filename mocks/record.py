@@ -15,15 +15,24 @@ from numpy.typing import NDArray
 
 from mocks.effects import Value, find
 from mocks.plant.layout import write
+from mocks.plant.linear import axis, wander
 from mocks.plant.motion import SITUATIONS, Motion, targets
 from mocks.plant.operator import Stand, draw_stand
 from mocks.plant.plant import GRID, Plant
-from mocks.plant.world import CHANNEL_OF, World
+from mocks.plant.release import release
+from mocks.plant.rig import LINEAR_DRIVE, WF, WFPD, Rig, linear_drive, weight_fibre
+from mocks.plant.world import World
 
 Float = NDArray[np.float64]
 Hidden = Mapping[str, Mapping[str, Value]]
 
 RATE = 2000.0
+INSTRUMENT = {
+    "drive_position": "drive",
+    "weight_position": "dial_gauge",
+    "fibre_force": "force_gauge",
+    "drive_force": "force_gauge",
+}
 ZERO_REST = 0.5  # s at the beginning from which the zeros of u and x are taken
 
 
@@ -40,7 +49,7 @@ class Noise:
 
     def of(self, channel: str) -> tuple[float, float]:
         """Sigma and step of a channel."""
-        key = {"drive_position": "x", "weight_position": "u", "fibre_force": "F"}[channel]
+        key = {"drive_position": "x", "weight_position": "u", "fibre_force": "F", "drive_force": "F"}[channel]
         return getattr(self, key), getattr(self, f"{key}_step")
 
 
@@ -54,17 +63,36 @@ def record(
     hidden: Hidden | None = None,
     noise: Noise | None = None,
 ) -> Path:
-    """One run of a WFPD stand to `path`, its truth to `path` with suffix .truth.json; the same seed, the same bytes."""
+    """One run to `path`, its truth to `path` with suffix .truth.json; the same seed gives the same bytes.
+
+    The stand's system decides what is recorded: weight-fibre-pulley-drive, weight-fibre (motion of shape "release") or
+    linear-drive (the motion's own shape is not used: it wanders). ValueError where motion and stand do not fit.
+    """
     hidden, noise, path = hidden or {}, noise or Noise(), Path(path)
     stand = stand.with_mass(motion.added_mass)
-    plant = Plant(stand.hiding(hidden), hidden)
-    run = plant.follow(targets(motion, seconds, GRID))
-    signals = {"drive_position": run.x, "weight_position": run.u, "fibre_force": run.F}
-    channels = sample(signals, run.time, plant.world, noise, np.random.default_rng(seed))
+    signals, time, world = _run(stand, motion, seconds, seed, hidden)
+    channels = sample(signals, time, world, noise, np.random.default_rng(seed))
     sigma = {name: noise.of(name)[0] for name in channels}
-    write(path, stand, channels, sigma, RATE, motion.ordered(seconds))
+    ordered = {} if stand.believed.system == LINEAR_DRIVE else motion.ordered(seconds)
+    write(path, stand, channels, sigma, RATE, ordered)
     write_truth(path, truth(stand, hidden, seed, noise, motion))
     return path
+
+
+def _run(
+    stand: Stand, motion: Motion, seconds: float, seed: int, hidden: Hidden
+) -> tuple[dict[str, Float], Float, World]:
+    """Signals on the plant's grid, that grid, and the world that made them."""
+    rig = stand.hiding(hidden)
+    if rig.system == LINEAR_DRIVE:
+        world, time, position, force = axis(rig, wander(seconds, seed), hidden)
+        return {"drive_position": position, "drive_force": force}, time, world
+    if rig.system == WF:
+        plant, run = release(rig, motion.drop_height, seconds, hidden)
+        return {"weight_position": run.u, "fibre_force": run.F}, run.time, plant.world
+    plant = Plant(rig, hidden)
+    run = plant.follow(targets(motion, seconds, GRID))
+    return {"drive_position": run.x, "weight_position": run.u, "fibre_force": run.F}, run.time, plant.world
 
 
 def sample(
@@ -73,15 +101,12 @@ def sample(
     """The channels as the instruments give them at RATE: by own clocks, noisy, in steps, u and x from the rest."""
     wanted = time[0] + (np.arange(round((time[-1] - time[0]) * RATE)) + 1.0) / RATE - GRID
     channels = {}
-    for instrument, name in CHANNEL_OF.items():
-        if name not in signals:
-            continue
-        rate = world.clocks.get(instrument, 0.0)
-        values = np.interp(wanted / (1.0 + rate), time, signals[name])
+    for name, signal in signals.items():
+        values = np.interp(wanted / (1.0 + world.clocks.get(INSTRUMENT[name], 0.0)), time, signal)
         sigma, step = noise.of(name)
         values = values + sigma * rng.standard_normal(len(values))
         values = np.round(values / step) * step if step else values
-        if name != "fibre_force":
+        if not name.endswith("_force"):
             values -= values[: round(ZERO_REST * RATE)].mean()
         channels[name] = values
     return channels
@@ -148,7 +173,7 @@ def main_record(argv: Sequence[str] | None = None) -> int:
     given = parser.parse_args(argv)
     try:
         hidden = parse_hidden(given.hide)
-        stand = draw_stand(given.seed, errors=0.0 if given.exact_setup else 1.0)
+        stand = draw_stand(given.seed, _believed(given), errors=0.0 if given.exact_setup else 1.0)
         if given.campaign:
             from mocks.plant.campaign import write_campaign
 
@@ -161,7 +186,14 @@ def main_record(argv: Sequence[str] | None = None) -> int:
     return 0
 
 
+def _believed(given: argparse.Namespace) -> Rig:
+    rigs = {WF: lambda: weight_fibre(given.incline), LINEAR_DRIVE: linear_drive}
+    return rigs.get(given.system, Rig)()
+
+
 def _motion(given: argparse.Namespace) -> Motion:
+    if given.system == WF:
+        return Motion("release", drop_height=given.drop_height, added_mass=given.added_mass or 0.0)
     if given.shape is None:
         motion = SITUATIONS[given.situation]
         return motion if given.added_mass is None else Motion(**asdict(motion) | {"added_mass": given.added_mass})
@@ -175,6 +207,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--shape", choices=("rectangular", "trapezoidal", "quasi-sinusoidal"))
     for name, default in (("frequency", 1.0), ("amplitude", 0.03), ("ramp", 0.2), ("seconds", 10.0)):
         parser.add_argument(f"--{name}", type=float, default=default)
+    parser.add_argument("--system", choices=(WFPD, WF, LINEAR_DRIVE), default=WFPD)
+    parser.add_argument("--incline", type=float, default=30.0, help="deg, for weight-fibre")
+    parser.add_argument("--drop-height", type=float, default=0.012, help="m, for weight-fibre")
     parser.add_argument("--added-mass", type=float, help="kg")
     parser.add_argument("--hide", action="append", default=[], metavar="NAME[:parameter=value,...]")
     parser.add_argument("--seed", type=int, default=0)

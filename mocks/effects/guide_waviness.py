@@ -22,5 +22,5 @@ EFFECT = Effect(
     ),
     act,
     depends_on=("weight_position",),
-    systems=("weight-fibre-pulley-drive", "weight-fibre", "linear-drive"),
+    systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

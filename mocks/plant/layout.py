@@ -53,7 +53,8 @@ def write(
         entry.create_dataset("definition", data="weight-fibre-stand").attrs["version"] = "1"
         _data(entry, channels, sigma, rate)
         _setup(entry, stand)
-        _excitation(entry, ordered)
+        if ordered:
+            _excitation(entry, ordered)
         events = entry.create_group("events")
         events.attrs.update({"NX_class": "NXcollection", "complete": True})
     return path

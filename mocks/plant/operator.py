@@ -28,6 +28,7 @@ SHARES = {
     "moving_mass": 0.02,
 }
 ANGLE, GRAVITY = math.radians(0.3), 0.002
+SCALES = 1e-3  # kg that the scales are sure of at best
 BOUND = 2.0  # sigmas that an operator is off at most
 #: a hidden difference is one from the operator's value, which then has no other error
 BASE = {
@@ -51,7 +52,7 @@ class Stand:
     def with_mass(self, added: float) -> Stand:
         """The same stand with a mass added, true and believed off by the same share as the first one."""
         off = self.true.added_mass / self.believed.added_mass if self.believed.added_mass else self.added_share
-        sigmas = dict(self.uncertainty) | {"added_mass": SHARES["added_mass"] * added}
+        sigmas = dict(self.uncertainty) | {"added_mass": max(SHARES["added_mass"] * added, SCALES)}
         return Stand(self.believed.but(added_mass=added), self.true.but(added_mass=added * off), sigmas)
 
     @property

@@ -101,9 +101,20 @@ class Plant:
             self._size, truth,
         )  # fmt: skip
         self._step, self._end = self._step + n, drive[-1].copy()
-        return self._sense(time, path[:, 0], truth)
+        return self.sense(time, path[:, 0], truth)
 
-    def _sense(self, time: Float, x: Float, truth: Float) -> Slice:
+    def fall(self, height: float, steps: int) -> Float:
+        """Truth [steps, 11] of a weight let go at rest at `height` m (the rig without pulley and drive)."""
+        self._state[0], self._contacts[:2] = height, (height < self.world.physics.rest_stretch, False)
+        truth = np.empty((steps, len(march.COLUMNS)))
+        march.march(
+            self.time, self._state, self._bristles, self._contacts, np.zeros((steps + 1, 2)), GRID, self._record,
+            self._tables, self._size, truth,
+        )  # fmt: skip
+        return truth
+
+    def sense(self, time: Float, x: Float, truth: Float) -> Slice:
+        """The truth as the instruments' hidden stages pass it on."""
         signals = {"drive_position": x.copy(), "weight_position": truth[:, 2].copy(), "fibre_force": truth[:, 6].copy()}
         for channel, stages in self.world.sensors.items():
             for stage in stages:

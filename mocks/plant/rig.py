@@ -56,7 +56,7 @@ class Rig:
 
 def coulomb(incline_angle: float) -> float:
     """Guide friction that goes with the weight's pressure on the guide: 3.0 N at 30 deg, 2.45 N at 45 deg, 0 at 90."""
-    return 3.0 * math.cos(incline_angle) / math.cos(math.radians(30.0))
+    return max(0.0, round(3.0 * math.cos(incline_angle) / math.cos(math.radians(30.0)), 9))
 
 
 def weight_fibre(degrees: float = 30.0, **values: Any) -> Rig:

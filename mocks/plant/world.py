@@ -13,7 +13,6 @@ from mocks.plant.rig import Rig
 from mocks.plant.stages import DriveStage, Stage
 
 CHANNELS = ("drive_position", "weight_position", "fibre_force")
-CHANNEL_OF = {"drive": "drive_position", "dial_gauge": "weight_position", "force_gauge": "fibre_force"}
 
 
 @dataclass
