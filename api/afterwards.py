@@ -23,17 +23,15 @@ def compare_run(
     Returns {"json", "page", "comparison"}.
     """
     from twin.compare import compare
-
     from twin.report import comparison_page
 
     tell("reading", None)
     run = read_recording(recording)
-    tell(f"simulating {run.name}", 0.2)
-    comparison = compare(run, models=tuple(models))
+    comparison = compare(run, models=tuple(models), progress=tell)
     json_file, page = json_file or beside(recording, "comparison"), page or beside(recording, "comparison-page")
     content = comparison.to_json()
     write_text(json_file, json.dumps(content, indent=2, allow_nan=False) + "\n")
-    tell("writing the page", 0.8)
+    tell("writing the page", None)
     comparison_page(comparison, page)
     return {"json": str(json_file), "page": str(page), "comparison": content}
 

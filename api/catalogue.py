@@ -8,7 +8,6 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from stand.errors import InputError
 from stand.setup import Setup
 from twin.model import FibreModel
 from twin.parameter import Parameter
@@ -57,14 +56,10 @@ def describe_model(model: FibreModel) -> dict[str, Any]:
 
 def find_model(name: str, setup: Setup) -> tuple[FibreModel, dict[str, float], Setup]:
     """A model by name or by an extended model's file, its parameters, and the setup that goes with it."""
-    if name in model_names():
-        return load_models(name)[0], {}, setup
-    if name.endswith(".toml"):
-        from twin.extended import load_model
+    from twin.compare.run import choose
 
-        return load_model(name, setup)
-    remedy = f"Known: {', '.join(model_names())}, or the TOML file of an extended model"
-    raise InputError("no model of that name", where="model", value=name, remedy=remedy)
+    choice = choose(name, setup)
+    return choice.model, dict(choice.parameters), choice.setup or setup
 
 
 def describe_situations() -> list[dict[str, Any]]:

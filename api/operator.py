@@ -113,10 +113,8 @@ class Operator:
         """Quick stop now, whether something runs or not: {"stopped": the drive has answered, "message"}."""
         from stand.runs import emergency_stop
 
-        if self._handle is not None and self._handle.poll() is None:
-            self._handle.emergency_stop()
-            return {"stopped": True, "message": "The run was stopped by quick stop"}
-        stopped = emergency_stop(self.stand)
+        running = self._handle is not None and self._handle.poll() is None
+        stopped = self._handle.emergency_stop() if running and self._handle else emergency_stop(self.stand)
         message = "The drive has taken the quick stop" if stopped else "The drive did not answer: use the hardware stop"
         return {"stopped": stopped, "message": message}
 

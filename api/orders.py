@@ -49,7 +49,7 @@ class Order(BaseModel):
     comment: Annotated[str, Field(max_length=200)] = ""
     model: str = Field(
         default="force",
-        description="the model that runs beside: of GET /models, or a run's name for the extended model of its diagnosis",
+        description="the model that runs beside: of GET /models, or a run whose diagnosis extended one",
     )
 
     def excitation(self) -> Excitation:

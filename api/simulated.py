@@ -82,7 +82,7 @@ class SimulatedStand:
 
 
 def effects() -> list[str]:
-    """Names of the effects that a simulated stand hides visibly in one short run."""
+    """Names of the effects of the catalogue that a simulated stand hides visibly in one short run."""
     command = [sys.executable, "-m", "mocks", "effects"]
     told = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
-    return [effect["name"] for effect in told if effect.get("visible", True)]
+    return [effect["name"] for effect in told if effect["catalogued"] and effect.get("visible", True)]

@@ -25,10 +25,9 @@ def command(
     json: JsonOption = None,
 ) -> None:
     """Run the command."""
-    from api.catalogue import model_names
     from api.cli._after import compare_and_tell
 
-    models = list(model_names()) if model and "all" in model else model or ["force"]
+    models = ["all"] if model and "all" in model else model or ["force"]
     beside = None if json is None or quiet(json) else json
     done = compare_and_tell(recording, models, json=beside, page=page, silent=quiet(json))
     if quiet(json):
