@@ -37,13 +37,14 @@ def compiler(family: str, folder: Path = HERE) -> Callable[..., Callable[[Callab
 
     def compiled(*signatures: str, **options: Any) -> Callable[[Callable[..., Any]], Any]:
         def decorate(function: Callable[..., Any]) -> Any:
-            before = numba.config.CACHE_DIR
-            numba.config.CACHE_DIR = str(cache_folder(family, folder))
+            config: Any = numba.config
+            before = config.CACHE_DIR
+            config.CACHE_DIR = str(cache_folder(family, folder))
             try:
                 settings: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy", **options}
                 return numba.njit(list(signatures), **settings)(function)
             finally:
-                numba.config.CACHE_DIR = before
+                config.CACHE_DIR = before
 
         return decorate
 

@@ -1,1 +1,5 @@
-"""Pages that a person reads: self-contained HTML that opens offline."""
+"""Report pages: self-contained HTML."""
+
+from twin.report.comparison import comparison_page
+
+__all__ = ["comparison_page"]
