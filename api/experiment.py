@@ -46,7 +46,6 @@ class Experiment:
     why: str = ""
     latency: dict[str, float] | None = None
     dropped: int = 0
-    score: dict[str, Any] | None = None
 
     @property
     def active(self) -> bool:
@@ -76,7 +75,6 @@ class Experiment:
             "why": self.why,
             "latency": self.latency,
             "dropped": self.dropped,
-            "score": self.score,
             "links": {"self": f"/experiments/{self.id}", **({"run": f"/runs/{self.run}"} if self.run else {})},
         }
 

@@ -10,6 +10,7 @@ from fastapi.responses import FileResponse
 
 from api.problem import RESPONSES
 from api.routes._operator import TheOperator
+from api.views import JobView, RunView
 
 router = APIRouter(prefix="/runs", tags=["runs"], responses=RESPONSES)
 
@@ -18,14 +19,14 @@ REPORT_POLICY = "sandbox allow-scripts allow-downloads allow-popups; default-src
 REPORT_POLICY += "style-src 'unsafe-inline'; img-src data: blob:; font-src data:"
 
 
-@router.get("")
-def every(operator: TheOperator) -> list[dict[str, Any]]:
+@router.get("", response_model=list[RunView])
+def every(operator: TheOperator) -> Any:
     """The recordings, newest first, with scores where they were compared."""
     return operator.list_runs()
 
 
-@router.get("/{name}")
-def one(name: str, operator: TheOperator) -> dict[str, Any]:
+@router.get("/{name}", response_model=RunView)
+def one(name: str, operator: TheOperator) -> Any:
     """One recording's summary, with links to what was computed from it and the jobs that do."""
     path = operator.runs.path(name)
     jobs = [job.view() for job in operator.jobs.list() if str(path) in job.files]
@@ -68,8 +69,8 @@ def model(name: str, operator: TheOperator) -> FileResponse:
     return FileResponse(operator.runs.file(name, "model"), media_type="application/toml", filename=f"{name}.model.toml")
 
 
-@router.post("/{name}/comparison", status_code=202)
-def compare(name: str, operator: TheOperator) -> dict[str, Any]:
+@router.post("/{name}/comparison", status_code=202, response_model=JobView)
+def compare(name: str, operator: TheOperator) -> Any:
     """Compare again, as a job."""
     return operator.jobs.submit("compare", [operator.runs.path(name)]).view()
 

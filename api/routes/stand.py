@@ -9,6 +9,7 @@ from pydantic import BaseModel, Field
 
 from api.problem import RESPONSES
 from api.routes._operator import TheOperator
+from api.views import StandView, StepView
 
 router = APIRouter(prefix="/stand", tags=["stand"], responses=RESPONSES)
 
@@ -19,37 +20,37 @@ class Jog(BaseModel):
     distance: float = Field(description="m, positive takes fibre in", examples=[0.001], ge=-0.02, le=0.02)
 
 
-@router.get("")
-def status(operator: TheOperator) -> dict[str, Any]:
+@router.get("", response_model=StandView)
+def status(operator: TheOperator) -> Any:
     """What the devices say, as last asked; asked again every few seconds while no experiment runs."""
     return operator.status()
 
 
-@router.post("/home")
-def home(operator: TheOperator) -> dict[str, Any]:
+@router.post("/home", response_model=StepView)
+def home(operator: TheOperator) -> Any:
     """Find the drive's reference and go to where runs rest."""
     return operator.prepare("home")
 
 
-@router.post("/jog")
-def jog(step: Jog, operator: TheOperator) -> dict[str, Any]:
+@router.post("/jog", response_model=StepView)
+def jog(step: Jog, operator: TheOperator) -> Any:
     """Move the drive a little."""
     return operator.prepare("jog", step.distance)
 
 
-@router.post("/tare")
-def tare(operator: TheOperator) -> dict[str, Any]:
+@router.post("/tare", response_model=StepView)
+def tare(operator: TheOperator) -> Any:
     """Tare the gauges."""
     return operator.prepare("tare")
 
 
-@router.post("/rest-check")
-def rest_check(operator: TheOperator) -> dict[str, Any]:
+@router.post("/rest-check", response_model=StepView)
+def rest_check(operator: TheOperator) -> Any:
     """Check the force at rest against the weight's."""
     return operator.prepare("rest-check")
 
 
-@router.post("/reset")
-def reset(operator: TheOperator) -> dict[str, Any]:
+@router.post("/reset", response_model=StepView)
+def reset(operator: TheOperator) -> Any:
     """After a trip or an emergency stop: clear the drive's fault and allow motion again. Nothing moves by this."""
     return operator.prepare("reset")
