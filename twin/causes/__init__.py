@@ -1,1 +1,1 @@
-"""Causes, one a file: ways in which reality may differ from the baseline."""
+"""Causes: ways in which reality may differ from the operator's model, one in each file."""

@@ -1,0 +1,169 @@
+"""A model with causes in it, as the arrays that the composed stepper needs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stand.setup import Setup, System
+from twin.causes._kind import Cause, Undo
+from twin.diagnosis.coordinates import Coordinate, base, of_cause, offsets
+from twin.kernels import composed_slots as k
+
+Float = NDArray[np.float64]
+WIDTH = 16
+_SYSTEM = {System.WFPD: k.WFPD, System.WF: k.WF, System.LINEAR_DRIVE: k.AXIS}
+
+
+@dataclass(frozen=True)
+class Hooks:
+    """Addresses int64 [h] and constants float64 [h, WIDTH] of one kind of hook."""
+
+    address: NDArray[np.int64]
+    p: Float
+
+
+@dataclass(frozen=True)
+class Composition:
+    """The base model of some runs' setups with causes; z stands in the order of `coordinates`."""
+
+    setups: tuple[Setup, ...]
+    causes: tuple[Cause, ...]
+
+    @cached_property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """Base values, runs' offsets, then the causes' parameters."""
+        freed = frozenset(c.base for c in self.causes if c.base is not None)
+        found = base(self.setups, freed)
+        if self.setups[0].system is System.WFPD:
+            found += offsets(len(self.setups), any(c.rest_free for c in self.causes))
+        for cause in self.causes:
+            found += of_cause(cause)
+        return found
+
+    @cached_property
+    def index(self) -> dict[tuple[str, str], int]:
+        """Place of (owner, name) in z, runs' offsets apart."""
+        return {(c.owner, c.name): i for i, c in enumerate(self.coordinates) if c.run < 0}
+
+    def zero(self) -> Float:
+        """The setup as stated, and every cause at null."""
+        return np.zeros(len(self.coordinates))
+
+    def values(self, z: Float, cause: Cause) -> dict[str, float]:
+        """A cause's parameters by name, SI."""
+        if cause.base is not None:
+            return {"difference": self.base_value(z, cause.base)}
+        where = {p.name: self.index[cause.name, p.name] for p in cause.parameters}
+        return {name: self.coordinates[i].value(float(z[i])) for name, i in where.items()}
+
+    def base_value(self, z: Float, name: str) -> float:
+        """How far a base value is from the setup's, in its unit (SI)."""
+        i = self.index.get(("base", name))
+        return 0.0 if i is None else self.coordinates[i].value(float(z[i]))
+
+    def put(self, z: Float, cause: Cause, values: Mapping[str, float]) -> Float:
+        """z with a cause's parameters set."""
+        z = z.copy()
+        for name, value in values.items():
+            i = self.index[("base", cause.base)] if cause.base is not None else self.index[(cause.name, name)]
+            c = self.coordinates[i]
+            z[i] = (value - c.origin) / c.scale
+        return z
+
+    def carry(self, z: Float, other: Composition) -> Float:
+        """This model's z as the other model's, where they share coordinates."""
+        mine = {(c.owner, c.name, c.run): float(v) for c, v in zip(self.coordinates, z, strict=True)}
+        return np.array([mine.get((c.owner, c.name, c.run), 0.0) for c in other.coordinates])
+
+    def setup(self, z: Float, run: int) -> Setup:
+        """One run's setup with calibrated values in it."""
+        s = self.setups[run]
+        if s.system is System.LINEAR_DRIVE:
+            return s.with_values(moving_mass=max((s.moving_mass or 1.0) + self.base_value(z, "moving_mass"), 1e-3))
+        split = self.base_value(z, "split")
+        free = s.free_length
+        first = s.weight_strand_length * math.exp(split * s.drive_strand_length / free) if free else 0.0
+        return s.with_values(
+            weight_mass=max(s.weight_mass + self.base_value(z, "weight_mass"), 0.05),
+            added_mass=max(s.added_mass + (self.base_value(z, "added_mass") if s.added_mass > 0 else 0.0), 0.0),
+            incline_angle=s.incline_angle + self.base_value(z, "incline_angle"),
+            fibre_stiffness=max(s.fibre_stiffness + self.base_value(z, "fibre_stiffness"), 100.0),
+            fibre_damping=max(s.fibre_damping + self.base_value(z, "fibre_damping"), 0.0),
+            pulley_inertia=max(s.pulley_inertia + self.base_value(z, "pulley_inertia"), 1e-6),
+            guide_friction=max(s.guide_friction + self.base_value(z, "guide_friction"), 0.0),
+            guide_friction_velocity=s.guide_friction_velocity * math.exp(self.base_value(z, "guide_friction_velocity")),
+            weight_strand_length=first if s.drive_strand_length else s.weight_strand_length,
+            drive_strand_length=free - first if s.drive_strand_length else 0.0,
+        )
+
+    def constants(self, z: Float, rest: Sequence[float]) -> Float:
+        """[runs, CONSTANTS]; rest: each run's true rest tension, N."""
+        return np.array([self._row(z, run, rest[run]) for run in range(len(self.setups))])
+
+    def _row(self, z: Float, run: int, rest: float) -> Float:
+        s = self.setup(z, run)
+        row = np.zeros(k.CONSTANTS)
+        row[k.K_SYSTEM] = _SYSTEM[s.system]
+        if s.system is System.LINEAR_DRIVE:
+            row[[k.K_MASS, k.K_VS, k.K_C1, k.K_C2]] = s.moving_mass, 0.002, 1.0, 1.0
+            return row
+        free = s.free_length
+        share = [free / s.weight_strand_length, free / s.drive_strand_length if s.drive_strand_length else 1.0]
+        row[[k.K_C1, k.K_C2]] = np.array(share) * s.fibre_stiffness
+        row[[k.K_B1, k.K_B2]] = np.array(share) * s.fibre_damping
+        row[[k.K_MASS, k.K_WEIGHT]] = s.mass, s.rest_tension
+        row[k.K_RIM] = s.pulley_inertia / s.pulley_radius**2
+        row[[k.K_FC, k.K_VS]] = s.guide_friction, s.guide_friction_velocity
+        row[[k.K_REST, k.K_RADIUS]] = (rest if s.system is System.WFPD else s.rest_tension), s.pulley_radius
+        row[k.K_OFFSET] = self._offset(z, run)
+        return row
+
+    def _offset(self, z: Float, run: int) -> float:
+        for i, c in enumerate(self.coordinates):
+            if c.owner == "run" and c.run == run:
+                return c.value(float(z[i]))
+        return 0.0
+
+    def hooks(self, z: Float, kind: str) -> Hooks:
+        """The causes' hooks of a kind (before, after, senses, moves) with their constants."""
+        chosen = sorted((c for c in self.causes if getattr(c, kind) is not None), key=lambda c: c.order)
+        p = np.zeros((max(len(chosen), 1), WIDTH))
+        own = self._own()
+        for row, cause in zip(p, chosen, strict=False):
+            packed = cause.pack(self.setup(z, 0), self.values(z, cause), own[cause.name])
+            row[: len(packed)] = packed
+        return Hooks(np.array([getattr(c, kind).address for c in chosen], dtype=np.int64), p)
+
+    def _own(self) -> dict[str, int]:
+        own, place = {}, 0
+        for cause in self.causes:
+            own[cause.name] = place
+            place += cause.states
+        if place > k.STATES:
+            raise ValueError(f"{place} states of causes; {k.STATES} fit")
+        return own
+
+    @property
+    def own_states(self) -> int:
+        """How many states the causes have of their own."""
+        return sum(c.states for c in self.causes)
+
+    def undo(self, z: Float) -> Undo:
+        """All instruments' inverses together."""
+        parts = [c.undo(self.values(z, c)) for c in self.causes]
+        return Undo(
+            u_late=sum(p.u_late for p in parts) + self.base_value(z, "late_u"),
+            u_gain=math.prod(p.u_gain for p in parts),
+            u_side=sum(p.u_side for p in parts),
+            F_late=sum(p.F_late for p in parts) + self.base_value(z, "late_F"),
+            F_gain=math.prod(p.F_gain for p in parts),
+            F_offset=sum(p.F_offset for p in parts),
+            F_rate=sum(p.F_rate for p in parts),
+            F_mass=sum(p.F_mass for p in parts),
+        )

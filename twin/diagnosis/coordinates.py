@@ -1,0 +1,96 @@
+"""What can be fitted: base values within their priors, nuisances of each run, and the parameters of causes.
+
+Every coordinate z counts in units of its scale: base values in their stated uncertainties from the setup's value, causes'
+parameters in typical sizes from null.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from stand.setup import Setup, System
+from twin.causes._kind import Cause
+
+WITHIN = 3.0
+TIMING = 4e-5
+OFFSET = 4e-6
+LOST_OFFSET = 6e-4
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """One number to fit. owner: "base", "run" (a number per run) or a cause's name; scale in SI; prior: one sigma in z."""
+
+    name: str
+    owner: str
+    scale: float
+    origin: float = 0.0
+    prior: float = math.inf
+    low: float = -math.inf
+    high: float = math.inf
+    run: int = -1
+
+    def value(self, z: float) -> float:
+        """The number itself, SI."""
+        return self.origin + self.scale * z
+
+
+def base(setups: Sequence[Setup], freed: frozenset[str] = frozenset()) -> tuple[Coordinate, ...]:
+    """The base values that calibration may move, those in `freed` without prior or bound."""
+    setup = setups[0]
+    names = {
+        System.WFPD: ("weight_mass", "incline_angle", "fibre_stiffness", "fibre_damping", "pulley_inertia", "guide_friction"),
+        System.WF: ("weight_mass", "incline_angle", "fibre_stiffness", "fibre_damping", "guide_friction"),
+        System.LINEAR_DRIVE: ("moving_mass",),
+    }[setup.system]
+    found = [Coordinate(n, "base", _sigma(setup, n), 0.0, 1.0, -WITHIN, WITHIN) for n in names]
+    if setup.system is not System.LINEAR_DRIVE:
+        found.append(Coordinate("guide_friction_velocity", "base", 0.7, 0.0, 1.0, -3.6, 2.2))
+        found.append(Coordinate("late_F", "base", TIMING, 0.0, 1.0, -WITHIN, WITHIN))
+    if setup.system is System.WFPD:
+        found.append(Coordinate("late_u", "base", TIMING, 0.0, 1.0, -WITHIN, WITHIN))
+        found.append(Coordinate("split", "base", _split(setup), 0.0, 1.0, -WITHIN, WITHIN))
+    if any(s.added_mass > 0 for s in setups) and setup.system is not System.LINEAR_DRIVE:
+        heavy = max(setups, key=lambda s: s.added_mass)
+        if heavy.sigma("added_mass") > 1e-6:
+            found.append(Coordinate("added_mass", "base", heavy.sigma("added_mass"), 0.0, 1.0, -WITHIN, WITHIN))
+    free = dict(prior=math.inf, low=-math.inf, high=math.inf)
+    return tuple(replace(c, **free) if c.name in freed else c for c in found)  # type: ignore[arg-type]
+
+
+def _sigma(setup: Setup, name: str) -> float:
+    if name == "pulley_inertia":
+        rim = 2 * setup.sigma("pulley_radius") / setup.pulley_radius
+        return setup.pulley_inertia * math.hypot(setup.sigma(name) / setup.pulley_inertia, rim)
+    if name == "fibre_stiffness":
+        length = setup.sigma("weight_strand_length") / setup.weight_strand_length
+        return setup.fibre_stiffness * math.hypot(setup.sigma(name) / setup.fibre_stiffness, 0.5 * length)
+    return setup.sigma(name)
+
+
+def _split(setup: Setup) -> float:
+    """One sigma of the strands' ratio L1/L2, as a share."""
+    return math.hypot(
+        setup.sigma("weight_strand_length") / setup.weight_strand_length,
+        setup.sigma("drive_strand_length") / setup.drive_strand_length,
+    )
+
+
+def offsets(runs: int, lost: bool) -> tuple[Coordinate, ...]:
+    """Each run's zero of u against x (through the strands' rest tensions), m."""
+    sigma = LOST_OFFSET if lost else OFFSET
+    return tuple(Coordinate("offset", "run", OFFSET, 0.0, sigma / OFFSET, -5e3, 5e3, r) for r in range(runs))
+
+
+def of_cause(cause: Cause) -> tuple[Coordinate, ...]:
+    """A cause's parameters; none for a cause that only frees a base value."""
+    if cause.base is not None:
+        return ()
+    found = []
+    for p in cause.parameters:
+        scale = p.uncertainty or max(abs(p.value), 1.0)
+        low, high = ((b - p.value) / scale for b in p.bounds)
+        found.append(Coordinate(p.name, cause.name, scale, p.value, math.inf, low, high))
+    return tuple(found)

@@ -1,0 +1,213 @@
+"""Gauss-Newton over windows: global coordinates and every window's start together, robustly."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from twin.diagnosis.composition import Composition
+from twin.diagnosis.problem import Problem
+
+Float = NDArray[np.float64]
+TAIL = 4.0
+FLOOR = 0.4
+STEP = 0.02
+START_STEP = 0.1
+FAR = 8.0
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """Where a fit stands: z, starts [w, 4] (in spreads), residual [w, LENGTH, 2] (data - prediction, 0 where unused),
+    cost: robust, in the scale it was asked for. information: of z, starts eliminated, priors in it."""
+
+    model: Composition
+    z: Float
+    starts: Float
+    residual: Float
+    cost: float
+    information: Float | None = None
+    scores: Float | None = None
+
+
+@dataclass(frozen=True)
+class Linear:
+    """Weighted columns around a point: globals [p, w, 2 LENGTH], starts [4, w, 2 LENGTH], residual [w, 2 LENGTH]."""
+
+    columns: Float
+    starts: Float
+    residual: Float
+    prior: Float
+
+
+def residual(problem: Problem, model: Composition, z: Float, starts: Float) -> Float:
+    """Data minus prediction, zero where a sample doesn't count; 1e3 sigma at most."""
+    left = problem.data - problem.predict(model, z, starts)
+    limit = 3e3 * problem.sigma[:, None, :]
+    left = np.where(np.isfinite(left), np.clip(left, -limit, limit), limit)
+    left[~problem.windows.use] = 0.0
+    return left
+
+
+def scale(problem: Problem, left: Float) -> Float:
+    """One sigma of each sample's channel, [w, 1, 2]: the sensor's and a floor of what the model can't do yet."""
+    use = problem.windows.use
+    floor = [FLOOR * float(np.median(np.abs(left[..., c][use[..., c]]))) for c in range(2)]
+    spread: Float = np.sqrt(problem.sigma**2 + np.square(floor))[:, None, :]
+    return spread
+
+
+def weigh(left: Float, spread: Float) -> Float:
+    """Student-t weights."""
+    return (TAIL + 1) / (TAIL + (left / spread) ** 2)
+
+
+def loss(left: Float, spread: Float) -> float:
+    """Student-t loss; about chi^2 while residuals are small."""
+    return float(np.sum((TAIL + 1) * np.log1p((left / spread) ** 2 / TAIL)))
+
+
+def prior_cost(model: Composition, z: Float, starts: Float) -> float:
+    """What priors of coordinates and starts cost."""
+    sigma = np.array([c.prior for c in model.coordinates])
+    return float(np.sum((z / sigma) ** 2) + np.sum(starts**2))
+
+
+def linearise(problem: Problem, fitted: Fitted, spread: Float, free: NDArray[np.bool_]) -> Linear:
+    """Forward differences in every free coordinate and in the starts."""
+    model, z, starts = fitted.model, fitted.z, fitted.starts
+    root = np.sqrt(weigh(fitted.residual, spread)) / spread * problem.windows.use
+    here = problem.predict(model, z, starts)
+    flat = len(problem.windows), -1
+
+    def column(there: Float, step: float) -> Float:
+        slope: Float = np.clip((there - here) / step, -1e9, 1e9) * root
+        return np.nan_to_num(slope).reshape(flat)
+
+    parts = []
+    for axis in range(4):
+        moved = starts.copy()
+        moved[:, axis] += START_STEP
+        parts.append(column(problem.predict(model, z, moved), START_STEP))
+    columns = _globals(problem, fitted, free, column)
+    weighted = (fitted.residual * root).reshape(flat)
+    prior = np.array([1.0 / c.prior**2 for c in model.coordinates])
+    return Linear(columns, np.array(parts), weighted, prior)
+
+
+def _globals(problem: Problem, fitted: Fitted, free: NDArray[np.bool_], column) -> Float:  # type: ignore[no-untyped-def]
+    model, z, starts = fitted.model, fitted.z, fitted.starts
+    flat = len(problem.windows), problem.data.shape[1] * 2
+    columns = np.zeros((len(z), *flat))
+    ofruns = [i for i, c in enumerate(model.coordinates) if c.run >= 0]
+    for i, c in enumerate(model.coordinates):
+        if c.run >= 0 or not free[i]:
+            continue
+        step = -STEP if z[i] + STEP > c.high else STEP
+        moved = z.copy()
+        moved[i] += step
+        columns[i] = column(problem.predict(model, moved, starts), step)
+    if ofruns and free[ofruns].any():
+        moved = z.copy()
+        moved[ofruns] += STEP * 5
+        every = column(problem.predict(model, moved, starts), STEP * 5)
+        for i in ofruns:
+            mine = problem.windows.run == model.coordinates[i].run
+            columns[i, mine] = every[mine]
+    return columns
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """Normal equations of the globals after the starts' elimination; back: how starts follow a step."""
+
+    matrix: Float
+    vector: Float
+    starts_matrix: Float
+    starts_vector: Float
+    cross: Float
+
+    def follow(self, step: Float) -> Float:
+        """The starts' step [w, 4] that goes with a step of the globals."""
+        right = self.starts_vector - np.einsum("wps,p->ws", self.cross, step)
+        return np.linalg.solve(self.starts_matrix, right[..., None])[..., 0]
+
+
+def reduce(linear: Linear, starts: Float, z: Float) -> Reduced:
+    """Schur complement over each window's start."""
+    J, S, r = linear.columns, linear.starts, linear.residual
+    own = S.transpose(1, 0, 2)
+    matrix = own @ own.transpose(0, 2, 1) + np.eye(4)
+    vector = np.einsum("wsl,wl->ws", own, r) - starts
+    cross = J.transpose(1, 0, 2) @ own.transpose(0, 2, 1)
+    solved = np.linalg.solve(matrix, np.concatenate([cross.transpose(0, 2, 1), vector[..., None]], axis=2))
+    whole = J.reshape(len(J), -1)
+    H = whole @ whole.T - np.einsum("wps,wsq->pq", cross, solved[..., :-1])
+    g = whole @ r.reshape(-1) - np.einsum("wps,ws->p", cross, solved[..., -1])
+    return Reduced(H + np.diag(linear.prior), g - linear.prior * z, matrix, vector, cross)
+
+
+def solve(reduced: Reduced, z: Float, low: Float, high: Float, free: NDArray[np.bool_], damping: float) -> Float:
+    """A damped step within bounds: coordinates that would leave them stop there and the others are solved again."""
+    step = np.zeros(len(z))
+    held = ~free
+    for _ in range(4):
+        open_ = ~held
+        if not open_.any():
+            break
+        H = reduced.matrix[np.ix_(open_, open_)]
+        H = H + damping * np.diag(np.diag(H)) + 1e-9 * np.eye(len(H))
+        g = reduced.vector[open_] - reduced.matrix[np.ix_(open_, held)] @ step[held]
+        step[open_] = np.linalg.lstsq(H, g, rcond=1e-12)[0]
+        beyond = open_ & ((z + step < low - 1e-12) | (z + step > high + 1e-12))
+        if not beyond.any():
+            break
+        step[beyond] = np.clip(z + step, low, high)[beyond] - z[beyond]
+        held = held | beyond
+    return np.clip(z + step, low, high) - z
+
+
+def fit(
+    problem: Problem,
+    model: Composition,
+    z: Float,
+    starts: Float | None = None,
+    *,
+    iterations: int = 8,
+    fixed: NDArray[np.bool_] | None = None,
+    tolerance: float = 2e-4,
+    reach: float = 12.0,
+) -> Fitted:
+    """Minimise the robust cost from z and starts; `fixed` coordinates stay."""
+    starts = np.zeros((len(problem.windows), 4)) if starts is None else starts
+    low = np.array([c.low for c in model.coordinates])
+    high = np.array([c.high for c in model.coordinates])
+    free = np.ones(len(z), bool) if fixed is None else ~fixed
+    left = residual(problem, model, z, starts)
+    fitted = Fitted(model, z, starts, left, 0.0)
+    damping, reduced = 1e-3, None
+    for _ in range(iterations):
+        spread = scale(problem, fitted.residual)
+        cost = loss(fitted.residual, spread) + prior_cost(model, fitted.z, fitted.starts)
+        reduced = reduce(linearise(problem, fitted, spread, free), fitted.starts, fitted.z)
+        better = None
+        for _ in range(4):
+            step = np.clip(solve(reduced, fitted.z, low, high, free, damping), -reach, reach)
+            z_new = np.clip(fitted.z + step, low, high)
+            starts_new = np.clip(fitted.starts + reduced.follow(z_new - fitted.z), -FAR, FAR)
+            left = residual(problem, model, z_new, starts_new)
+            new = loss(left, spread) + prior_cost(model, z_new, starts_new)
+            if new < cost:
+                better = replace(fitted, z=z_new, starts=starts_new, residual=left, cost=new)
+                damping = max(damping / 8, 1e-6)
+                break
+            damping *= 10
+        if better is None:
+            break
+        gained = (cost - better.cost) / max(cost, 1e-9)
+        fitted = better
+        if gained < tolerance:
+            break
+    return replace(fitted, information=None if reduced is None else reduced.matrix)

@@ -1,0 +1,227 @@
+"""Windows simulated from their reconstructed starts: predictions, their sensitivities, and what they leave."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stand.setup import System
+from twin.diagnosis.composition import Composition, Hooks
+from twin.diagnosis.run import BURN, HALF, LENGTH, Run, Windows
+from twin.diagnosis.smooth import gains, polynomial
+from twin.kernels import composed, composed_sense
+from twin.kernels import composed_slots as k
+
+Float = NDArray[np.float64]
+WORKERS = 2
+STEP = 0.02
+_POOL = ThreadPoolExecutor(WORKERS)
+NEAREST = 3e-2
+
+
+@dataclass
+class Problem:
+    """Runs and their windows; caches what depends on few parameters only."""
+
+    runs: tuple[Run, ...]
+    windows: Windows
+    _cache: dict[Any, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.system = self.runs[0].setup.system
+        self.dt = self.runs[0].dt
+        lengths = [len(r.raw_u) for r in self.runs]
+        self.offset = np.concatenate([[0], np.cumsum(lengths)[:-1]]).astype(np.int64)
+        self.drive = np.ascontiguousarray(
+            np.concatenate([np.column_stack([r.x.value, r.x.rate]) for r in self.runs])
+        )
+        self.smooth = np.ascontiguousarray(
+            np.concatenate([np.column_stack([r.u.value, r.u.rate, r.F.value, r.F.rate]) for r in self.runs])
+        )
+        self._polynomials()
+        self.sigma = np.array([[r.noise_u, r.noise_F] for r in self.runs])[self.windows.run]
+
+    def _polynomials(self) -> None:
+        """u, u', F, F' around each start by local polynomials, at the shifts -HALF..HALF samples."""
+        w = self.windows
+        self.spread = np.empty((len(w), 4))
+        for r, run in enumerate(self.runs):
+            mine = w.run == r
+            value, rate = gains(HALF, 3, self.dt)
+            self.spread[mine] = (max(run.noise_u * value, 3e-7), 1.5 * run.noise_u * rate, 15e-6, 0.03)
+
+    def part(self, keep: NDArray[Any]) -> Problem:
+        """The same runs with some of the windows."""
+        return Problem(self.runs, self.windows.part(keep))
+
+    @property
+    def data(self) -> Float:
+        """[w, LENGTH, 2]."""
+        return self.windows.data
+
+    def predict(self, model: Composition, z: Float, starts: Float) -> Float:
+        """What the gauges would have told, [w, LENGTH, 2]; starts [w, 4]: from the reconstruction, in `spread`s."""
+        simulated, _ = self.simulate(model, z, starts)
+        return self.sense(model, z, simulated)
+
+    def simulate(self, model: Composition, z: Float, starts: Float) -> tuple[Float, NDArray[np.int64]]:
+        """True signals [w, LENGTH, 5] and each window's status."""
+        undo = model.undo(z)
+        rest = [(r.rest_force - undo.F_offset) / undo.F_gain for r in self.runs]
+        constants = model.constants(z, rest)
+        drive = self._driven(model, z)
+        before, after = model.hooks(z, "before"), model.hooks(z, "after")
+        own = self._own(model, z, constants, drive, before, after)
+        centre = self._centres(model, z, constants, drive, before, after, own)
+        state = np.ascontiguousarray(centre + starts * self.spread)
+        return self._carry(state, own, constants, drive, before, after, LENGTH)
+
+    def sense(self, model: Composition, z: Float, simulated: Float) -> Float:
+        """The gauges' readings of simulated windows."""
+        hooks, out = model.hooks(z, "senses"), np.empty((len(self.windows), LENGTH, 2))
+        late = model.base_value(z, "late_u"), model.base_value(z, "late_F")
+        w = self.windows
+        _threads(
+            len(w),
+            lambda a, b: composed_sense.sense(
+                simulated[a:b], w.run[a:b], w.first[a:b], self.dt, *late, hooks.address, hooks.p, out[a:b]
+            ),
+        )
+        return out
+
+    def _driven(self, model: Composition, z: Float) -> Float:
+        """x, x' at the fibre's end, all runs."""
+        hooks = model.hooks(z, "moves")
+        if not len(hooks.address):
+            return self.drive
+        key = ("drive", hooks.address.tobytes(), hooks.p.tobytes())
+        if key not in self._cache:
+            parts = []
+            for r in self.runs:
+                x, speed = r.x.value.copy(), r.x.rate.copy()
+                composed_sense.drive_end(x, speed, self.dt, hooks.address, hooks.p)
+                parts.append(np.column_stack([x, speed]))
+            self._cache = {key: np.ascontiguousarray(np.concatenate(parts))} | {
+                a: b for a, b in self._cache.items() if a[0] != "drive"
+            }
+        driven: Float = self._cache[key]
+        return driven
+
+    def _own(
+        self, model: Composition, z: Float, constants: Float, drive: Float, before: Hooks, after: Hooks
+    ) -> Float:
+        """The causes' own states at the starts, from their history along the measured motion."""
+        own = np.zeros((len(self.windows), k.STATES))
+        if not model.own_states or self.system is System.LINEAR_DRIVE:
+            return own
+        key = ("own", tuple(c.name for c in model.causes), before.p.tobytes(), after.p.tobytes())
+        if key not in self._cache:
+            self._cache[key] = own
+            for r in range(len(self.runs)):
+                self._history(r, own, constants, drive, before, after)
+            for old in [a for a in self._cache if a[0] == "own"][:-6]:
+                del self._cache[old]
+        cached: Float = self._cache[key]
+        return cached
+
+    def _history(
+        self, r: int, own: Float, constants: Float, drive: Float, before: Hooks, after: Hooks
+    ) -> None:
+        run, mine = self.runs[r], self.windows.run == r
+        if not mine.any():
+            return
+        last = int(self.windows.first[mine].max()) + 2
+        ends = drive[self.offset[r] : self.offset[r] + last]
+        path = self._path(run, ends, constants[r], last)
+        out = np.empty((last, k.STATES))
+        composed.history(
+            path, ends, constants[r], np.zeros((1, k.STATES)), self.dt,
+            before.address, before.p, after.address, after.p, out,
+        )  # fmt: skip
+        own[mine] = out[self.windows.first[mine]]
+
+    def _path(self, run: Run, ends: Float, c: Float, n: int) -> Float:
+        """u, v, s, w as measured and balanced between the strands; what creeps slower than 2 mm/s rests."""
+        u, v = run.u.value[:n], run.u.rate[:n]
+        share = c[k.K_C1] / (c[k.K_C1] + c[k.K_C2]) if self.system is System.WFPD else 0.0
+        s = share * u + (1 - share) * ends[:, 0] if self.system is System.WFPD else np.zeros(n)
+        w = share * v + (1 - share) * ends[:, 1] if self.system is System.WFPD else np.zeros(n)
+        w = np.where(np.abs(w) < 0.002, 0.0, w)
+        return np.ascontiguousarray(np.column_stack([u, v, s, w]))
+
+    def _centres(
+        self, model: Composition, z: Float, constants: Float, drive: Float, before: Hooks, after: Hooks, own: Float
+    ) -> Float:
+        """Each window's start (u, v, s, w) as its instruments, inverted, tell it."""
+        undo, w = model.undo(z), self.windows
+        at = self.offset[w.run] + w.first
+        u, v = self._around(0, undo.u_late)
+        v_true = v / undo.u_gain
+        u_true = (u + undo.u_side * np.clip(v / 0.002, -1, 1)) / undo.u_gain
+        centre = np.zeros((len(w), 4))
+        centre[:, 0], centre[:, 1] = u_true, v_true
+        if self.system is not System.WFPD:
+            return centre
+        F, Fd = self._around(1, undo.F_late)
+        acceleration = (drive[at + 1, 1] - drive[at - 1, 1]) / (2 * self.dt)
+        time = w.first * self.dt
+        F = (F - undo.F_offset - undo.F_rate * time - undo.F_mass * acceleration) / undo.F_gain
+        c = constants[w.run]
+        rate = Fd / undo.F_gain / c[:, k.K_C2]
+        centre[:, 3] = drive[at, 1] - rate
+        centre[:, 2] = drive[at, 0] + c[:, k.K_REST] / c[:, k.K_C2] - (F - c[:, k.K_B2] * rate) / c[:, k.K_C2]
+        for _ in range(2):
+            first, _ = self._carry(np.ascontiguousarray(centre), own, constants, drive, before, after, 1)
+            centre[:, 2] += np.clip((first[:, 0, 2] - F) / c[:, k.K_C2], -2e-4, 2e-4)
+        return centre
+
+    def _around(self, channel: int, late: float) -> tuple[Float, Float]:
+        """A channel's smooth value and rate at the starts, `late` s further on, from a local cubic there."""
+        key = ("poly", channel)
+        places = np.round(late / self.dt)
+        if (key, places) not in self._cache:
+            self._cache[key, places] = self._fit(channel, int(places))
+        value, rate, second = self._cache[key, places]
+        rest = late - places * self.dt
+        return value + rest * rate + 0.5 * rest**2 * second, rate + rest * second
+
+    def _fit(self, channel: int, shift: int) -> tuple[Float, Float, Float]:
+        w = self.windows
+        value, rate, second = np.empty(len(w)), np.empty(len(w)), np.empty(len(w))
+        for r, run in enumerate(self.runs):
+            mine = w.run == r
+            raw = run.raw_u if channel == 0 else run.raw_F
+            places = np.clip(w.first[mine] + shift, HALF, len(raw) - HALF - 1)
+            value[mine], rate[mine], _ = polynomial(raw, places, HALF, 3, self.dt)
+            second[mine] = (run.u if channel == 0 else run.F).second[places]
+        return value, rate, second
+
+    def _carry(
+        self, state: Float, own: Float, constants: Float, drive: Float, before: Hooks, after: Hooks, length: int
+    ) -> tuple[Float, NDArray[np.int64]]:
+        w = self.windows
+        out, status = np.empty((len(w), length, 5)), np.zeros(len(w), np.int64)
+        _threads(
+            len(w),
+            lambda a, b: composed.windows(
+                state[a:b], own[a:b], constants, w.run[a:b], w.first[a:b], length, drive, self.dt,
+                before.address, before.p, after.address, after.p, self.offset, out[a:b], status[a:b],
+            ),
+        )  # fmt: skip
+        return out, status
+
+
+def _threads(n: int, work: Any) -> None:
+    """work(first, last) over 0..n, shared between the workers."""
+    if n < 4 * WORKERS:
+        work(0, n)
+        return
+    cuts = np.linspace(0, n, 2 * WORKERS + 1).astype(int)
+    list(_POOL.map(lambda pair: work(*pair), zip(cuts[:-1], cuts[1:], strict=True)))
+
+
+__all__ = ["BURN", "Problem"]
