@@ -64,7 +64,7 @@ def _marked(aligned: Aligned, fault: float | None) -> Aligned:
     if fault is None:
         return aligned
     quality = aligned.quality.copy()
-    quality[aligned.time >= fault - aligned.origin] |= Quality.FAULT
+    quality[aligned.time >= fault - aligned.origin] |= np.uint8(Quality.FAULT)
     return dataclasses.replace(aligned, quality=quality)
 
 
@@ -147,7 +147,7 @@ def _end(new: h5py.File, aligned: Aligned, outcome: str, why: str, complete: boo
     _add_gaps(events, [(gap.time, f"{gap.instrument}: {gap.count} frames lost") for gap in aligned.losses])
     times = events["host_time"][()] - aligned.origin
     events.create_dataset("time", data=times).attrs["units"] = "s"
-    events.attrs.update({"outcome": outcome, "why": why, "complete": complete})
+    events.attrs.update({"outcome": str(outcome), "why": why, "complete": complete})
 
 
 def _add_gaps(events: h5py.Group, gaps: list[tuple[float, str]]) -> None:

@@ -1,5 +1,6 @@
 """Runs: the acquisition is a process of its own, started and watched through a `RunHandle`."""
 
+from stand.clock.model import LiveBlock
 from stand.runs.checks import RestCheck
 from stand.runs.handle import Event, RunHandle, emergency_stop, start
 from stand.runs.messages import (
@@ -23,6 +24,7 @@ __all__ = [
     "Finished",
     "Health",
     "InstrumentHealth",
+    "LiveBlock",
     "Outcome",
     "Phase",
     "Progress",

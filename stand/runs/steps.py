@@ -42,7 +42,7 @@ def _status(rig: Rig, order: StepOrder) -> dict[str, object]:
         rig.read_unwatched()
         rig.halt.wait(LISTEN)
     now = time.monotonic()
-    for name, reader in rig.readers.items():
+    for name in rig.readers:
         meter = rig.acquisition.meters[name]
         health, recent = meter.read(now), meter.recent()
         state = {"state": health.state, "samples": health.samples}
