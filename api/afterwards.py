@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import pkgutil
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -36,10 +37,20 @@ def compare_run(
     return {"json": str(json_file), "page": str(page), "comparison": content}
 
 
+def can_diagnose() -> bool:
+    """Whether this version has a diagnosis; found by looking, nothing is loaded."""
+    import twin.diagnosis
+
+    return any(module.name == "diagnose" for module in pkgutil.iter_modules(twin.diagnosis.__path__))
+
+
 def diagnose_runs(
     recordings: Sequence[Path], tell: Tell, *, json_file: Path | None = None, page: Path | None = None, **options: Any
 ) -> dict[str, Any]:
-    """Diagnose a recording or a campaign, where damaged files are skipped and listed: {"json", "page", "verdict"}."""
+    """Diagnose a recording or a campaign, where damaged files are skipped and listed: {"json", "page", "verdict"}.
+
+    Where no paths are given, the results go beside the last recording.
+    """
     from twin.diagnosis import diagnose
 
     runs, skipped = [], []
@@ -51,8 +62,8 @@ def diagnose_runs(
                 raise
             skipped.append({"file": path.name, "why": str(error)})
     verdict = diagnose(runs, skipped=skipped, progress=tell, **options)
-    json_file = json_file or beside(recordings[0], "diagnosis")
-    page = page or beside(recordings[0], "diagnosis-page")
+    json_file = json_file or beside(recordings[-1], "diagnosis")
+    page = page or beside(recordings[-1], "diagnosis-page")
     verdict.write(json_file, page)
     return {"json": str(json_file), "page": str(page), "verdict": verdict.to_json()}
 

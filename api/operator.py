@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import threading
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from api.afterwards import can_diagnose
 from api.catalogue import model_names
 from api.devices import resting, running
 from api.experiment import Experiment, State
@@ -17,7 +19,7 @@ from api.follow import Follower
 from api.hub import Hub
 from api.jobs import Job, Jobs
 from api.live import Stream
-from api.orders import Order, make_plan
+from api.orders import Order, checked, make_plan
 from api.problem import Conflict, NotFound
 from api.runs import Runs
 from api.steps import do_step
@@ -76,8 +78,11 @@ class Operator:
             raise NotFound("no such experiment", where="experiments", value=identity)
         return self._experiments[identity]
 
-    def start(self, order: Order) -> Experiment:
-        """Start an experiment; InputError where the order can't be run, Conflict while the stand is busy."""
+    def start(self, order: Order, campaign: Sequence[Path] = ()) -> Experiment:
+        """Start an experiment; InputError where the order can't be run, Conflict while the stand is busy.
+
+        campaign: recordings that the diagnosis after the run takes in as well.
+        """
         from stand.runs import PHASES, RunOrder, start
 
         excitation, setup = order.excitation(), order.setup(self.stand)
@@ -97,9 +102,20 @@ class Operator:
         experiment = Experiment(uuid.uuid4().hex[:12], given, order.model, created, PHASES, float(plan.duration))
         self._changed(experiment)
         self.jobs.hold(True)
-        self._thread = threading.Thread(target=self._follow, args=(experiment, self._handle, twin), daemon=True)
+        given_on = (experiment, self._handle, twin, tuple(campaign))
+        self._thread = threading.Thread(target=self._follow, args=given_on, daemon=True)
         self._thread.start()
         return experiment
+
+    def next_experiment(self, name: str) -> Experiment:
+        """Start what the diagnosis of the run `name` proposes; the campaign is diagnosed with it."""
+        verdict = json.loads(self.runs.file(name, "diagnosis").read_text())
+        proposal = verdict.get("next_experiment")
+        if not proposal:
+            raise NotFound("the diagnosis proposes no further experiment", where=name)
+        known = [self.runs.folder / Path(run["file"]).name for run in verdict["baseline"]["runs"]]
+        order = checked(Order, {**proposal["excitation"], "comment": proposal["why"][:200]})
+        return self.start(order, [path for path in known if path.is_file()])
 
     def stop(self, identity: str) -> Experiment:
         """End an experiment in good order; Conflict where it has ended."""
@@ -152,7 +168,7 @@ class Operator:
             remedy = "See to the cause, then reset the stand: nothing resumes by itself"
             raise Conflict("the stand was stopped and stays stopped", where="stand", value=self._tripped, remedy=remedy)
 
-    def _follow(self, experiment: Experiment, handle: RunHandle, twin: Any) -> None:
+    def _follow(self, experiment: Experiment, handle: RunHandle, twin: Any, campaign: Sequence[Path]) -> None:
         stream = Stream(self.hub, experiment.id)
         follower = Follower(experiment, twin, changed=self._changed, sampled=stream.sampled, health=self._health)
         try:
@@ -165,15 +181,16 @@ class Operator:
         finally:
             self._busy.release()
             self.jobs.hold(False)
-        self._afterwards(last, twin)
+        self._afterwards(last, twin, campaign)
 
-    def _afterwards(self, last: Experiment, twin: Any) -> None:
+    def _afterwards(self, last: Experiment, twin: Any, campaign: Sequence[Path]) -> None:
         self.hub.publish_state("runs", {"newest": last.run})
         if last.run is not None:
             path = self.runs.path(last.run)
             store(path, twin)
-            for kind in ("compare", "diagnose"):
-                self.jobs.submit(kind, [path])
+            self.jobs.submit("compare", [path])
+            if can_diagnose():
+                self.jobs.submit("diagnose", [*campaign, path])
         self._look()
 
     def _changed(self, experiment: Experiment) -> None:

@@ -68,6 +68,7 @@ class Runs:
             "bytes": stat.st_size,
             **told,
             "scores": _scores(file),
+            "verdict": _verdict(file),
             "links": links,
         }
 
@@ -90,6 +91,17 @@ def _describe(file: Path) -> dict[str, Any]:
         "frequency": excitation.frequency if excitation else None,
         "amplitude": excitation.amplitude if excitation else None,
     }
+
+
+def _verdict(file: Path) -> dict[str, Any] | None:
+    """The diagnosis in short: causes' names, whether something unknown is left, and why to run what next."""
+    try:
+        verdict = json.loads(beside(file, "diagnosis").read_text())
+        causes = [cause["name"] for cause in verdict["causes"]]
+        proposal = verdict.get("next_experiment") or {}
+        return {"causes": causes, "unknown": verdict.get("unknown") is not None, "next": proposal.get("why")}
+    except (OSError, ValueError, KeyError):
+        return None
 
 
 def _scores(file: Path) -> dict[str, Any] | None:

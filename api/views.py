@@ -116,4 +116,8 @@ class RunView(BaseModel):
     bytes: int = Field(examples=[1481224])
     readable: bool
     scores: dict[str, Any] | None = Field(examples=[{"weight_position": {"R": 0.9993}, "fibre_force": {"R": 0.84}}])
+    verdict: dict[str, Any] | None = Field(
+        examples=[{"causes": ["guide-viscous-drag"], "unknown": False, "next": None}],
+        description="the diagnosis in short; `next`: why to run the proposed next experiment",
+    )
     links: dict[str, str] = Field(examples=[{"file": "/runs/20261121T101500.123Z_trapezoidal_1.25Hz/file"}])

@@ -10,6 +10,7 @@ from api.cli._errors import NotYet
 from api.experiment import Experiment, State
 from stand.errors import DeviceError, SafetyTrip
 
+MODELS = ("model", "R(u)", "R(F)", "NRMSE u", "NRMSE F", "window u µm", "window F N", "seconds")
 SCORES = ("channel", "R", "R ceiling", "NRMSE", "lag ms", "gain", "peak error")
 
 
@@ -42,22 +43,46 @@ def compare_and_tell(
             channels = {name: values for name, values in run.items() if isinstance(values, dict)}
             title = f"{run['file']}: model and measurement, {100 * run['slack_fraction']:.1f} % slack"
             out.print(table(title, SCORES, score_rows(channels), right=SCORES[1:]))
+        _tell_models(done["comparison"].get("models", []))
         out.print(f"comparison  {done['page']}\n            {done['json']}")
     return done
+
+
+def _tell_models(models: list[dict[str, Any]]) -> None:
+    if len(models) < 2:
+        return
+    rows = []
+    for model in models:
+        u, F = model.get("weight_position", {}), model.get("fibre_force", {})
+        windows = (u.get("short_window_error"), F.get("short_window_error"))
+        cost = model.get("cost_s")
+        rows.append(
+            [
+                model["name"],
+                u.get("R"),
+                F.get("R"),
+                u.get("nrmse"),
+                F.get("nrmse"),
+                _micro(windows[0]),
+                windows[1],
+                cost,
+            ]
+        )
+    out.print(table("Models side by side", MODELS, rows, right=MODELS[1:]))
+
+
+def _micro(value: float | None) -> float | None:
+    return None if value is None else 1e6 * value
 
 
 def diagnose_and_tell(
     paths: list[Path], *, json: Path | None = None, page: Path | None = None, silent: bool = False, **options: Any
 ) -> dict[str, Any]:
     """Diagnose recordings and print the verdict in words."""
-    from api.afterwards import diagnose_runs
+    from api.afterwards import can_diagnose, diagnose_runs
 
-    try:
-        import twin.diagnosis
-
-        twin.diagnosis.diagnose  # noqa: B018
-    except (ImportError, AttributeError):
-        raise NotYet("the diagnosis") from None
+    if not can_diagnose():
+        raise NotYet("the diagnosis")
     with progress("diagnosing") as report:
         done = diagnose_runs(paths, report, json_file=json, page=page, **options)
     if not silent:

@@ -15,14 +15,14 @@ export function refreshRuns(onProblem) {
 
 function show(runs, onProblem) {
   body.replaceChildren(...runs.map((run) => row(run, onProblem)));
-  if (!runs.length) body.append(el("tr", {}, el("td", { colspan: 8, class: "muted" }, "No run yet: start an experiment above.")));
+  if (!runs.length) body.append(el("tr", {}, el("td", { colspan: 9, class: "muted" }, "No run yet: start an experiment above.")));
 }
 
 function row(run, onProblem) {
   const u = run.scores?.weight_position, F = run.scores?.fibre_force;
   return el("tr", {}, el("td", {}, clock(run.written)), el("td", {}, excitation(run)), el("td", { class: "num" }, fixed(run.seconds, 1, "s")),
     el("td", { class: "num" }, correlation(u?.R)), el("td", { class: "num" }, correlation(F?.R)), el("td", { class: "num" }, correlation(F?.R_ceiling)),
-    el("td", {}, state(run)), results(run, onProblem));
+    el("td", {}, state(run)), el("td", {}, verdict(run)), results(run, onProblem));
 }
 
 function excitation(run) {
@@ -37,11 +37,18 @@ function state(run) {
   return el("span", { class: "state ok" }, run.complete ? "complete" : dash);
 }
 
+function verdict({ verdict: found }) {
+  if (!found) return dash;
+  const words = [...found.causes, ...(found.unknown ? ["something unknown"] : [])];
+  return words.length ? el("strong", {}, words.join(", ")) : "as calibrated";
+}
+
 function results(run, onProblem) {
   const link = (href, text) => href && el("a", { href, target: "_blank", rel: "noopener" }, text);
   const ask = (text, path, payload) => el("button", { type: "button", onclick: () => post(path, payload).catch(onProblem) }, text);
   return el("td", {}, link(run.links["comparison-page"], "report") || (run.readable ? ask("compare", `/runs/${run.name}/comparison`) : null),
     link(run.links["diagnosis-page"], "diagnosis") || (run.readable ? ask("diagnose", "/diagnoses", { runs: [run.name] }) : null),
+    run.verdict?.next ? el("button", { type: "button", title: run.verdict.next, onclick: () => post(`/runs/${run.name}/next-experiment`).catch(onProblem) }, "run next") : null,
     el("a", { href: run.links.file, download: `${run.name}.h5` }, "HDF5"));
 }
 

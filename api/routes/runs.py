@@ -10,7 +10,7 @@ from fastapi.responses import FileResponse
 
 from api.problem import RESPONSES
 from api.routes._operator import TheOperator
-from api.views import JobView, RunView
+from api.views import ExperimentView, JobView, RunView
 
 router = APIRouter(prefix="/runs", tags=["runs"], responses=RESPONSES)
 
@@ -73,6 +73,12 @@ def model(name: str, operator: TheOperator) -> FileResponse:
 def compare(name: str, operator: TheOperator) -> Any:
     """Compare again, as a job."""
     return operator.jobs.submit("compare", [operator.runs.path(name)]).view()
+
+
+@router.post("/{name}/next-experiment", status_code=201, response_model=ExperimentView)
+def next_experiment(name: str, operator: TheOperator) -> Any:
+    """Run the experiment that this run's diagnosis proposes, then diagnose the campaign with it."""
+    return operator.next_experiment(name).view()
 
 
 def _page(path: Path) -> FileResponse:
