@@ -59,7 +59,7 @@ class Trouble:
 
 @dataclass
 class Gauge:
-    """signal, truth: value at true times [n] as sensed and as it is. batch: frames handed over at once without a timer."""
+    """signal: values at true times [n] as sensed and as they are. batch: frames handed over at once (no timer)."""
 
     name: str
     head: Head
@@ -68,8 +68,7 @@ class Gauge:
     sensing: Sensing
     line: Line
     adapter: Adapter
-    signal: Callable[[Float], Float]
-    truth: Callable[[Float], Float]
+    signal: Callable[[Float], tuple[Float, Float]]
     rng: np.random.Generator
     log: Callable[[Rows], None]
     rate: float = 2000.0
@@ -88,8 +87,8 @@ class Gauge:
     _queued: int = 0
     _gone: int = 0
 
-    def step(self, now: float) -> None:
-        """Everything that is due by now; `wake` says when to come again. The plant has been advanced to now."""
+    def prepare(self, now: float) -> None:
+        """Sample up to `now`, to which the plant has come; answer the host. Nothing leaves here."""
         held, asked = self._watch(now)
         if asked:
             for reply in self.head.answers(self.terminal.read(), self):
@@ -98,9 +97,12 @@ class Gauge:
         self._sample(now, held)
         if not held:
             self._forget()
-        elif now >= self.wake:
-            self._hand_over(now)
-        self._plan(now)
+
+    def hand_over(self, now: float) -> None:
+        """What is due leaves; `wake` then says when to come again."""
+        if now >= self.wake:
+            self._write(now)
+            self._plan(now)
 
     def _watch(self, now: float) -> tuple[bool, bool]:
         if now < self.trouble.broken:
@@ -110,7 +112,7 @@ class Gauge:
         return self.terminal.watched()
 
     def _sample(self, now: float, held: bool) -> None:
-        last = int(np.floor(self.clock.device(now - self.sensing.conversion) * self.rate))
+        last = int(np.floor(self.clock.device(now) * self.rate))
         if last < self.tick:
             return
         ticks = np.arange(self.tick, last + 1)
@@ -122,30 +124,34 @@ class Gauge:
 
     def _miss(self, ticks: NDArray[np.int64]) -> None:
         due = self.clock.true(ticks[-1:] / self.rate)
-        self.newest = float(self._read(due)[0])
+        self.newest = float(self._read(due)[0][0])
         self.counter += len(ticks)
 
-    def _read(self, times: Float) -> Float:
+    def _read(self, times: Float) -> tuple[Float, Float]:
+        """What the gauge reads, and the truth in its own zero."""
         s = self.sensing
-        values = self.signal(times) + s.zero - self.tare + s.noise * self.rng.standard_normal(len(times))
-        values = values + np.where(times < self.trouble.spike, self.trouble.spike_value, 0.0)
-        return np.rint(values / s.step) * s.step if s.step else values
+        sensed, true = self.signal(times)
+        zero = s.zero - self.tare
+        values = sensed + (zero + s.noise * self.rng.standard_normal(len(times)))
+        if times[0] < self.trouble.spike:
+            values = values + np.where(times < self.trouble.spike, self.trouble.spike_value, 0.0)
+        return np.rint(values / s.step) * s.step if s.step else values, true + zero
 
     def _measure(self, ticks: NDArray[np.int64]) -> None:
         times = self.clock.true(ticks / self.rate)
-        values = self._read(times)
+        values, true = self._read(times)
         faulty = (np.abs(values) > self.sensing.limit) | (times < self.trouble.faulty)
         frames, told = self.head.encode(values, faulty)
         self.newest = float(told[-1])
-        true = self.truth(times) + self.sensing.zero - self.tare
         rows = Rows.of(self.counter + np.arange(len(ticks)), ticks / self.rate, times, told, true)
         self.counter += len(ticks)
-        rows.flags[faulty] |= FAULTY
+        if faulty.any():
+            rows.flags[faulty] |= FAULTY
         self._queue(rows, self._spoil(frames, rows))
 
     def _spoil(self, frames: NDArray[np.uint8], rows: Rows) -> NDArray[np.uint8]:
         trouble = self.trouble
-        for k in range(len(frames)):
+        for k in range(len(frames) if trouble.drop or trouble.corrupt else 0):
             if trouble.drop > 0:
                 trouble.drop -= 1
                 rows.flags[k] |= DROPPED
@@ -153,19 +159,24 @@ class Gauge:
                 trouble.corrupt -= 1
                 rows.flags[k] |= SPOILT
                 frames[k, self.rng.integers(self.head.frame_bytes)] ^= 0xFF
-        rows.flags[rows.true_time < trouble.silent] |= DROPPED
+        if rows.true_time[0] < trouble.silent:
+            rows.flags[rows.true_time < trouble.silent] |= DROPPED
         return frames
 
     def _queue(self, rows: Rows, frames: NDArray[np.uint8]) -> None:
-        kept = rows.flags & DROPPED == 0
-        if np.any(kept):
-            rows.due[kept] = self.line.put_frames(frames[kept], rows.true_time[kept] + self.sensing.conversion)
-            sizes = np.where(kept, self.head.frame_bytes, 0)
-            rows.place[:] = self._queued + np.cumsum(sizes)
-            self._queued += int(sizes.sum())
+        ready = rows.true_time + self.sensing.conversion
+        if not rows.flags.any():
+            rows.due[:] = self.line.put_frames(frames, ready)
+            rows.place[:] = self._queued + self.head.frame_bytes * np.arange(1, len(rows) + 1)
+        else:
+            kept = rows.flags & DROPPED == 0
+            if kept.any():
+                rows.due[kept] = self.line.put_frames(frames[kept], ready[kept])
+            rows.place[:] = self._queued + self.head.frame_bytes * np.cumsum(kept)
+        self._queued = int(rows.place[-1])
         self._way.append(rows)
 
-    def _hand_over(self, now: float) -> None:
+    def _write(self, now: float) -> None:
         data = self.line.take(self.release if self.adapter.timer else now - self.delay)
         written = self.terminal.write(data) if data else 0
         handed = monotonic()
@@ -177,18 +188,26 @@ class Gauge:
         """Book the frames whose last byte went out, or was lost because the host's buffer was full."""
         while self._way:
             rows = self._way[0]
-            done = (rows.place <= self._gone) | (rows.flags & DROPPED != 0)
-            count = len(done) if done.all() else int(np.argmin(done))
-            if count == 0:
-                return
-            out, rest = rows.split(count)
-            lost = out.place > end
-            out.flags[lost & (out.flags & DROPPED == 0)] |= OVERRUN
-            out.handed[~lost & (out.flags & DROPPED == 0)] = handed
-            if np.isfinite(out.due).any():
-                self.lateness = min(self.lateness, handed - float(np.nanmax(out.due)))
-            self.log(out)
-            self._way[:1] = [rest] if len(rest) else []
+            count = len(rows)
+            if rows.place[-1] > self._gone:
+                count = int(np.searchsorted(rows.place, self._gone, side="right"))
+                if count == 0:
+                    return
+                rows, rest = rows.split(count)
+                self._way[0] = rest
+            else:
+                del self._way[0]
+            self._book(rows, end, handed)
+
+    def _book(self, rows: Rows, end: int, handed: float) -> None:
+        rows.handed[:] = handed
+        if rows.place[-1] > end:
+            rows.flags[(rows.place > end) & (rows.flags & DROPPED == 0)] |= OVERRUN
+        if rows.flags.any():
+            rows.handed[rows.flags & (DROPPED | OVERRUN) != 0] = np.nan
+        else:
+            self.lateness = min(self.lateness, handed - self.delay - float(rows.due[-1]))
+        self.log(rows)
 
     def _forget(self) -> None:
         self.line.clear()
@@ -197,8 +216,6 @@ class Gauge:
 
     def _plan(self, now: float) -> None:
         """When the next bytes are to be handed over: after some whole frames, or with the adapter's tick."""
-        if now < self.wake:
-            return
         self.delay = self.adapter.delay()
         if self.adapter.timer:
             self.release = float(self.adapter.tick_after(max(now, self.release)))

@@ -43,7 +43,8 @@ class DialHead:
     def encode(self, values: Float, faulty: NDArray[np.bool_]) -> tuple[NDArray[np.uint8], Float]:
         """Frames, the alarm value where there is no valid one; values as their digits say."""
         counts = hlg1.counts(values, faulty)
-        return hlg1.frames(counts), counts * hlg1.UNIT
+        values: Float = counts * hlg1.UNIT
+        return hlg1.frames(counts), values
 
     def answers(self, data: bytes, gauge: Gauge) -> list[bytes]:
         """The sensor's answers."""

@@ -1,4 +1,4 @@
-"""A Nanotec drive as Modbus shows it: CiA 402, images at 5000 and 6000, NanoJ ring at 2000 (protocol table 1.1 to 1.3)."""
+"""A Nanotec drive as Modbus shows it: CiA 402, images at 5000 and 6000, NanoJ ring at 2000."""
 
 from __future__ import annotations
 
@@ -167,7 +167,7 @@ class NanotecDrive:
         self._settle()
 
     def write_objects(self, items: list[tuple[Any, int]]) -> None:
-        """Objects that arrived together: all are taken over, then the controlword acts. ObjectError where one is refused."""
+        """Objects that arrived together are taken over, then the controlword acts. ObjectError where one is refused."""
         controlword = self.objects.entries[0x6040, 0]
         last_mode, word = self.mode, self.word
         for entry, value in items:

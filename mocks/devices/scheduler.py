@@ -11,6 +11,7 @@ from mocks.devices.gauge import Gauge
 from mocks.devices.world import World
 
 LONGEST = 2e-3
+LEAD = 0.4e-3  # what is due at a time was sampled longer before it than this
 BEHIND = 0.25
 FLUSH = 0.25
 _TIMER_SLACK = 29
@@ -22,6 +23,13 @@ def sharpen_sleep() -> None:
         ctypes.CDLL(None).prctl(_TIMER_SLACK, ctypes.c_ulong(1000), 0, 0, 0)
     except (AttributeError, OSError):
         return
+
+
+def sleep_until(time_to_wake: float) -> None:
+    """Not at all where it is past."""
+    pause = time_to_wake - time.monotonic()
+    if pause > 0:
+        time.sleep(pause)
 
 
 class Scheduler(threading.Thread):
@@ -46,31 +54,31 @@ class Scheduler(threading.Thread):
     def _loop(self) -> None:
         flushed = 0.0
         while not self._ending.is_set():
+            wake = min(g.wake for g in self.gauges)
+            sleep_until(min(wake, time.monotonic() + LONGEST) - LEAD)
             with self.lock:
-                now = time.monotonic()
-                self.tick(now)
-                if now - flushed > FLUSH:
-                    self.flush(now)
-                    flushed = now
-                wake = min([now + LONGEST, *(g.wake for g in self.gauges)])
-            pause = wake - time.monotonic()
-            if pause > 0:
-                time.sleep(pause)
+                self.prepare(time.monotonic())
+            sleep_until(wake)
+            for gauge in self.gauges:
+                gauge.hand_over(time.monotonic())
+            if wake - flushed > FLUSH:
+                self.flush(wake)
+                flushed = wake
 
-    def tick(self, now: float) -> None:
-        """Everything up to now; after a long stall in pieces, so that no sample is lost."""
+    def prepare(self, now: float) -> None:
+        """Everything up to now, short of handing it over; after a long stall in pieces, so that no sample is lost."""
         while now - self.world.now > 2.0 * BEHIND:
             self.look(self.world.now + BEHIND)
         self.world.advance(now)
         for gauge in self.gauges:
-            if now >= gauge.wake:
-                gauge.step(now)
+            if gauge.wake <= now + 2.0 * LEAD:
+                gauge.prepare(now)
 
     def look(self, now: float) -> None:
-        """All gauges at a time that may be past."""
+        """All gauges at a time that is past."""
         self.world.advance(now)
         for gauge in self.gauges:
-            gauge.step(now)
+            gauge.prepare(now)
 
     def end(self) -> None:
         """Stop and wait."""

@@ -59,8 +59,8 @@ class DriveServers:
         self.registers, self.port, self.rtu, self.baud = registers, port, rtu, baud
         access: Access = registers.access
         self._pdu: list[Any] = [request_for(access)]
-        self._tcp: ModbusTcpServer | None = None
-        self._serial: ModbusSerialServer | None = None
+        self._tcp: Any = None
+        self._serial: Any = None
 
     async def start(self) -> None:
         """Listen; the port is the system's where it was 0."""
@@ -75,8 +75,7 @@ class DriveServers:
         """The TCP side alone."""
         self._tcp = ModbusTcpServer(device(self.registers), address=("127.0.0.1", self.port), custom_pdu=self._pdu)
         await self._tcp.serve_forever(background=True)
-        listening: Any = self._tcp.transport
-        self.port = listening.sockets[0].getsockname()[1]
+        self.port = self._tcp.transport.sockets[0].getsockname()[1]
 
     async def break_off(self, seconds: float) -> None:
         """Every TCP connection ends; nobody answers at the port for a while."""

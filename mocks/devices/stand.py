@@ -24,7 +24,7 @@ from mocks.devices.nanotec import INPUTS, RING, RX, TX, NanotecDrive
 from mocks.devices.ring import Ring
 from mocks.devices.scheduler import Scheduler
 from mocks.devices.server import DriveServers, LockedRegisters
-from mocks.devices.world import F, TRUE_F, TRUE_U, U, World
+from mocks.devices.world import FORCE, WEIGHT, World
 from mocks.ledger import Ledger, Rows
 from mocks.plant.operator import draw_stand
 from mocks.plant.plant import Plant
@@ -59,8 +59,8 @@ class SimulatedStand:
         self.drive = self._drive(config.drive)
         self.world.mover = self.drive
         self.gauges = {
-            "force_gauge": self._gauge("force_gauge", config.force_gauge, ForceHead(), (F, TRUE_F)),
-            "dial_gauge": self._gauge("dial_gauge", config.dial_gauge, DialHead(), (U, TRUE_U)),
+            "force_gauge": self._gauge("force_gauge", config.force_gauge, ForceHead(), FORCE),
+            "dial_gauge": self._gauge("dial_gauge", config.dial_gauge, DialHead(), WEIGHT),
         }
         if self.ledger:
             self.ledger.describe(self.facts())
@@ -94,19 +94,18 @@ class SimulatedStand:
         if self.ledger:
             self.ledger.rows("drive", Rows.of(counter, counter / 1000.0, due, value, true))
 
-    def _gauge(self, name: str, config: GaugeConfig, head: Head, channels: tuple[int, int]) -> Gauge:
+    def _gauge(self, name: str, config: GaugeConfig, head: Head, channels: slice) -> Gauge:
         rng = np.random.default_rng(self.rng.integers(1 << 62))
         clock = self._clock(name, config, 1.0 / config.rate)
         zero = rng.uniform(-DIAL_ZERO, DIAL_ZERO) if name == "dial_gauge" else 0.0
         zero = zero if config.zero is None else config.zero
         timer = config.bunching * (1.0 + rng.uniform(-1.0, 1.0) * config.bunching_error)
         phase = self.world.start + rng.uniform(0.0, 1.0) * timer
-        signal, truth = channels
         return Gauge(
             name=name, head=head, terminal=Terminal(self.folder, name), clock=clock, rng=rng,
             sensing=Sensing(config.noise, config.quantisation, zero, config.conversion, config.limit),
             line=Line(10.0 / config.baud), adapter=Adapter(rng, timer, config.jitter, phase),
-            signal=lambda times: self.world.at(signal, times), truth=lambda times: self.world.at(truth, times),
+            signal=lambda times: self.world.pair(channels, times),
             log=lambda rows: self._log(name, rows), rate=config.rate, batch=config.batch,
         )  # fmt: skip
 

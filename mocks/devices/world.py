@@ -12,7 +12,9 @@ from mocks.plant.plant import GRID, Plant, Slice
 
 Float = NDArray[np.float64]
 
-X, U, F, TRUE_U, TRUE_F = range(5)
+#: rows of what is kept: drive; weight and force as sensed and as they are
+X, U, TRUE_U, F, TRUE_F = range(5)
+WEIGHT, FORCE = slice(1, 3), slice(3, 5)
 CHUNK = 40
 _KEPT = 40_000
 
@@ -45,7 +47,7 @@ class World:
             self._advance(min(steps, CHUNK))
 
     def _advance(self, steps: int) -> None:
-        times = self.now + GRID * np.arange(1, steps + 1)
+        times: Float = self.now + GRID * np.arange(1, steps + 1)
         targets = self.mover.targets(times) if self.mover else np.zeros((steps, 3))
         run = self.plant.follow(targets)
         self._keep(run)
@@ -58,26 +60,26 @@ class World:
         if self._end + n > self._kept.shape[1]:
             self._kept[:, :_KEPT] = self._kept[:, self._end - _KEPT : self._end]
             self._end = _KEPT
-        self._kept[:, self._end : self._end + n] = run.x, run.u, run.F, run.truth[:, 2], run.truth[:, 6]
+        self._kept[:, self._end : self._end + n] = run.x, run.u, run.truth[:, 2], run.F, run.truth[:, 6]
         self._end += n
 
     def load(self, mass: float) -> None:
         """Another added mass, kg, from now on."""
         self.plant.load(mass)
 
-    def at(self, channel: int, times: Float) -> Float:
-        """A channel at times [n], between grid points by straight lines; ValueError for a time that is not kept."""
-        place = (times - self.start) / GRID - self._steps + self._end - 1
-        if len(place) and not (self._end - _KEPT <= place[0] and place[-1] <= self._end - 1 + 1e-6):
-            raise ValueError(
-                f"the plant is at {self.now:.6f} s and keeps {_KEPT * GRID:g} s; asked for {times[0]:.6f} s"
-            )
+    def at(self, channels: slice, times: Float) -> Float:
+        """Channels [m, n] at times [n], between grid points by straight lines; ValueError for a time that is not kept."""
+        place = (times - self.start) / GRID - (self._steps - self._end + 1)
+        if not (self._end - _KEPT <= place[0] and place[-1] <= self._end - 1 + 1e-6):
+            kept = f"the plant is at {self.now:.6f} s and keeps {_KEPT * GRID:g} s"
+            raise ValueError(f"{kept}; asked for {times[0]:.6f} to {times[-1]:.6f} s")
         below = np.minimum(place.astype(np.int64), self._end - 2)
         share = place - below
-        row = self._kept[channel]
-        values: Float = row[below] * (1.0 - share) + row[below + 1] * share
+        rows = self._kept[channels]
+        values: Float = rows[:, below] * (1.0 - share) + rows[:, below + 1] * share
         return values
 
-    def newest(self, channel: int) -> float:
-        """The channel's value now."""
-        return float(self._kept[channel, self._end - 1])
+    def pair(self, channels: slice, times: Float) -> tuple[Float, Float]:
+        """Two channels at times [n]."""
+        first, second = self.at(channels, times)
+        return first, second

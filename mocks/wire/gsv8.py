@@ -67,7 +67,8 @@ class Requests:
 class Amplifier:
     """The amplifier's settings and its answers; what it does to the stream is told through the callables.
 
-    value: the newest value in N. zero: subtract the present value. start: stream on or off. rate: set, or read with None.
+    value: the newest value in N. zero: subtract the present value. start: stream on or off.
+    rate: set, or read with None.
     """
 
     value: Callable[[], float]

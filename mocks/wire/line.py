@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -22,14 +23,16 @@ class Line:
     def put_frames(self, frames: NDArray[np.uint8], ready: Float) -> Float:
         """Frames [n, size] that are ready at times [n]; returns when the last byte of each has left.
 
-        A frame starts when it is ready and the one before has left: end_k = L (k + 1) + max(free, max_j<=k (ready_j - L j)).
+        A frame starts when it is ready and the one before has left:
+        end_k = L (k + 1) + max(free, max over j <= k of (ready_j - L j)).
         """
         count, size = frames.shape
         length = size * self.byte_time
         order = np.arange(count)
         starts = length * order + np.maximum(self.free, np.maximum.accumulate(ready - length * order))
         ends: Float = starts + length
-        self._append(frames.tobytes(), (starts[:, None] + self.byte_time * np.arange(1, size + 1)).ravel())
+        times: Float = starts[:, None] + self.byte_time * np.arange(1, size + 1)
+        self._append(frames.tobytes(), times.ravel())
         self.free = float(ends[-1])
         return ends
 
@@ -71,7 +74,7 @@ class Adapter:
 
     def tick_after(self, time: float) -> float:
         """The first tick of the timer after a time."""
-        return self.phase + (np.floor((time - self.phase) / self.timer) + 1.0) * self.timer
+        return self.phase + (math.floor((time - self.phase) / self.timer) + 1.0) * self.timer
 
     def delay(self) -> float:
         """The host's jitter this time, s."""
