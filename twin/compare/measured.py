@@ -111,7 +111,7 @@ def first_snatch(F: Float, taut: float, dt: float, least: float = 0.002) -> floa
     """s from the first sample to the first catch after the fibre was slack for at least `least`."""
     slack = taut > F
     edges = np.flatnonzero(np.diff(slack.astype(np.int8)))
-    begins = [e + 1 for e in edges if slack[e + 1]]
+    begins = [int(e) + 1 for e in edges if slack[e + 1]]
     if slack[0]:
         begins.insert(0, 0)
     for begin in begins:

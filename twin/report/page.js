@@ -26,7 +26,7 @@
     return Object.assign({ paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", font: { color: ink("ink"), family: "inherit" },
       margin: { l: 64, r: 16, t: 28, b: 44 }, hovermode: "closest", dragmode: "zoom",
       legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom", font: { color: ink("ink"), size: 13 } },
-      hoverlabel: { bgcolor: ink("card"), bordercolor: ink("line"), font: { color: ink("ink") } } }, made);
+      modebar: { bgcolor: "rgba(0,0,0,0)", color: ink("soft"), activecolor: ink("accent") }, hoverlabel: { bgcolor: ink("card"), bordercolor: ink("line"), font: { color: ink("ink") } } }, made);
   }
   function draw(node) {
     var figure = JSON.parse(node.querySelector("script").textContent), target = node.querySelector(".plot");

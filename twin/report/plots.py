@@ -126,5 +126,5 @@ def spectrum(values: Float, dt: float, seconds: float = 4.0) -> tuple[Float, Flo
         [np.abs(np.fft.rfft((v := values[b : b + n]) * window - v.mean() * window)) ** 2 for b in begins], 0
     )
     amplitude = 2.0 * np.sqrt(power) / window.sum()
-    f = np.fft.rfftfreq(n, dt)
+    f: Float = np.fft.rfftfreq(n, dt).astype(np.float64)
     return f[1:], np.maximum(amplitude[1:], 1e-12)

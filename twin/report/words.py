@@ -8,6 +8,10 @@ from stand.setup import System
 from twin.compare.comparison import Comparison, ModelRun
 
 
+#: below this R the lag says nothing of clocks
+TELLING = 0.95
+
+
 def sentences(c: Comparison) -> list[str]:
     """The findings, most important first."""
     made = [_position(c), _force(c), _snatch(c), _windows(c), _lag(c), _best(c)]
@@ -66,7 +70,7 @@ def _windows(c: Comparison) -> str:
 
 def _lag(c: Comparison) -> str:
     lag = c.baseline.score_u.lag
-    if not math.isfinite(lag) or abs(lag) < 2e-4:
+    if not math.isfinite(lag) or abs(lag) < 2e-4 or c.baseline.score_u.R < TELLING:
         return ""
     late = "late" if lag > 0 else "early"
     return f"The simulated position is {abs(lag) * 1e3:.2f} ms {late}: check the time base before the physics."
