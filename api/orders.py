@@ -164,7 +164,8 @@ def validate(order: Order, stand: Stand) -> Validation:
     except InputError as error:
         field = error.where.rpartition(".")[2].rpartition("/")[2]
         text = str(error).removeprefix(f"{error.where}: ")
-        return Validation(valid=False, errors=[FieldError(field=field, message=text)])
+        known = field if field in Order.model_fields else ""
+        return Validation(valid=False, errors=[FieldError(field=known, message=text)])
     return Validation(valid=True, plan=_view(plan, excitation, stand))
 
 

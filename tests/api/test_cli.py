@@ -131,3 +131,33 @@ def test_import_makes_a_recording_from_columns(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert "3000 samples at 2000 Hz" in done.stdout
     assert (tmp_path / "measured.h5").exists()
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A short recording by a program that is not ours."""
+    path = tmp_path_factory.mktemp("recorded") / "run.h5"
+    order = ["--situation", "2", "--seconds", "4", "--seed", "3", "--out", str(path)]
+    subprocess.run([sys.executable, "-m", "mocks", "record", *order], check=True, capture_output=True, timeout=100)
+    return path
+
+
+def test_compare_prints_scores_and_writes_json_and_page(recorded: Path, tmp_path: Path) -> None:
+    done = stand("compare", recorded, "--json", tmp_path / "c.json", "--page", tmp_path / "c.html")
+    assert done.returncode == 0, done.stderr
+    baseline = json.loads((tmp_path / "c.json").read_text())["baseline"]["runs"][0]
+    assert baseline["file"] == "run.h5"
+    assert f"{baseline['weight_position']['R']:.4g}" in done.stdout
+    assert "http" not in (tmp_path / "c.html").read_text()[:2000]
+
+
+def test_compare_with_several_models_puts_them_side_by_side(recorded: Path, tmp_path: Path) -> None:
+    page = tmp_path / "c.html"
+    done = stand("compare", recorded, "--model", "force", "--model", "force-damping", "--page", page, "--json", "-")
+    assert [model["name"] for model in json.loads(done.stdout)["models"]] == ["force", "force-damping"]
+
+
+def test_simulate_takes_the_drive_from_a_recording_and_saves_one(recorded: Path, tmp_path: Path) -> None:
+    done = stand("simulate", recorded, "--out", tmp_path / "s.h5")
+    assert done.returncode == 0, done.stderr
+    assert stand("doctor", tmp_path / "s.h5").returncode == 0
