@@ -38,7 +38,7 @@ class Codec:
     unit: SI unit of the values. length: bytes in a frame. scan(buffer): all whole frames in it, in order; what it
     finds in a prefix it finds again in the whole. start, stop: what makes the device stream and be silent;
     zero, rate(hz): commands; empty where it has none. identify: name -> (command, decode(reply)).
-    check_reply: empty where the device agreed, else its complaint.
+    check_reply: empty where the device agreed, else its complaint. flagged_is_invalid: such a value is no reading.
     """
 
     name: str
@@ -53,6 +53,7 @@ class Codec:
     rate: Callable[[float], bytes] = lambda hz: b""
     identify: Mapping[str, tuple[bytes, Callable[[bytes], str]]] = field(default_factory=dict)
     check_reply: Callable[[bytes], str] = lambda reply: ""
+    flagged_is_invalid: bool = False
 
 
 def starts(candidates: NDArray[np.int64], length: int) -> NDArray[np.int64]:

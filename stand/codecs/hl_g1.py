@@ -56,4 +56,5 @@ CODEC = Codec(
     unit="m",
     length=LENGTH,
     scan=scan,
+    flagged_is_invalid=True,
 )

@@ -78,6 +78,12 @@ class Drive:
         found = {name: f"{self.backend.read(name):#x}" for name in names if self.backend.has(name)}
         return {"profile": self.profile.profile.name, **found, "encoding": "; ".join(self.notes)}
 
+    @property
+    def word_order(self) -> str:
+        """The order of 32-bit values that the start-up probe found, or the profile's."""
+        tx = getattr(self.backend, "tx", None)
+        return str(tx.word_order) if tx is not None else self.profile.encoding.word_order
+
     def counts(self, quantity: str, value: float) -> int:
         """SI as the drive's counts, rounded to the nearest."""
         return round(value / self._scale[quantity])
@@ -158,8 +164,8 @@ class Drive:
         """The quick stop of the profile, in one request."""
         self.link.transact(self.backend.quick_stop(self.profile.quickstop.value))
 
-    def home(self, timeout: float = 60.0) -> None:
-        """Find the reference; DeviceError where the drive says that it failed."""
+    def home(self, timeout: float = 60.0, should_stop: Callable[[], bool] = lambda: False) -> None:
+        """Find the reference; DeviceError where the drive says that it failed, or where it was stopped."""
         self.enable(cia402.HOMING)
         self.backend.write("homing_method", self.config.homing_method or self.profile.homing.method)
         self.backend.write("controlword", cia402.ENABLE)
@@ -169,6 +175,9 @@ class Drive:
             self.sleep(4 * _POLL)
             snapshot = self.backend.snapshot()
             word, status = snapshot["statusword"], self.read_status(snapshot)
+            if should_stop():
+                self.stop()
+                raise DeviceError("homing was stopped", where=self.link.where, remedy="Home again")
             if status.state is State.FAULT or word & cia402.FOLLOWING_ERROR or self.clock() > deadline:
                 self.stop()
                 raise self._fault(status, "homing failed")

@@ -11,7 +11,7 @@ from stand.drive.cia402 import State
 from stand.drive.drive import Drive
 from stand.errors import DeviceError
 
-STRAY = 0.005
+STRAY = 0.015
 QUIET = 20e-6
 SAFETY_MARGIN = 0.003
 
@@ -42,7 +42,7 @@ def follow(
     should_stop: Callable[[], bool] = lambda: False,
     on_start: Callable[[float], None] = lambda started: None,
 ) -> Followed:
-    """Run the plan from where the drive stands; DeviceError where it faults or strays by more than 5 mm.
+    """Run the plan from where the drive stands; DeviceError where it faults or strays by more than 15 mm.
 
     Profile velocity with its acceleration set at every step to |dv| / dt: the drive's velocity is then the
     plan's, joined by straight lines between steps. Its own software limits are drawn in around the plan, so

@@ -1,0 +1,150 @@
+"""Frames that never arrived: where no steady clock fits the reads any more, frames are missing not long before."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from stand.clock.arrivals import Bounds, Int, Reads
+from stand.clock.lines import line_below, line_between
+
+#: share of a frame period by which bounds may miss each other before a frame must be missing
+SLACK = 0.06
+#: share of a frame period within which one of a stretch of reads comes, where no timer bounds it
+PROMPT, BUNCHED = 0.5, 0.75
+STRETCH, READS = 0.04, 12
+#: reads are thinned to the promptest in this many seconds; a loss is placed with a second of reads beyond it
+THIN, HORIZON, SPAN = 0.004, 1.0, 10.0
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """`count` frames are missing before the frame that the host counted as `frame`."""
+
+    frame: int
+    count: int
+
+
+def shift(bounds: Bounds, frames: Int, gaps: tuple[Gap, ...]) -> Bounds:
+    """The bounds with true indices: every frame after a gap counts on."""
+    early, late = bounds.early.copy(), bounds.late.copy()
+    for gap in gaps:
+        early[frames > gap.frame] += gap.count
+        late[frames[bounds.read] > gap.frame] += gap.count
+    return replace(bounds, early=early, late=late)
+
+
+def find_gaps(bounds: Bounds, reads: Reads, period: float) -> tuple[Gap, ...]:
+    """All gaps, one after another in time."""
+    search = _Search(*_watched(bounds, reads, period), period)
+    begin = 0
+    while begin < len(search.time):
+        end = search.until(begin, SPAN)
+        broken = search.breaks(begin, end)
+        if broken is not None:
+            search.mend(begin, broken)
+        elif end == len(search.time):
+            break
+        else:
+            begin = search.until(begin, SPAN / 2)
+    return search.gaps
+
+
+def _watched(bounds: Bounds, reads: Reads, period: float) -> tuple[Bounds, Int]:
+    """Bounds from both sides, thinned where no timer gives the second side; and the frames received by each read."""
+    if bounds.two_sided:
+        return bounds, reads.frames
+    slope = line_below(bounds.early, bounds.before, period).slope
+    rest = bounds.before - slope * bounds.early
+    keep = _promptest(rest, bounds.before, THIN, 1)
+    early, before, rest, frames = bounds.early[keep], bounds.before[keep], rest[keep], reads.frames[keep]
+    gap = float(np.median(np.diff(before))) if len(before) > 1 else THIN
+    first = _promptest(rest, before, max(STRETCH, READS * gap), 5)
+    share = PROMPT if gap < 2 * THIN else BUNCHED
+    late, after = early[first], before[first] - share * period
+    return Bounds(early, before, late, after, first, True, bounds.residual), frames
+
+
+def _promptest(rest: np.ndarray, time: np.ndarray, stretch: float, least: int) -> Int:
+    """The read with the least delay in each stretch of time that holds at least `least` reads."""
+    number = np.floor((time - time[0]) / stretch).astype(np.int64)
+    order = np.lexsort((rest, number))
+    first = order[np.concatenate(([True], np.diff(number[order]) > 0))]
+    enough = np.bincount(number, minlength=int(number[-1]) + 1)[number[first]] >= least
+    enough[-1] &= least == 1
+    return np.sort(first[enough])
+
+
+class _Search:
+    """The state of a search through a run: bounds in true indices so far, and the gaps found."""
+
+    def __init__(self, bounds: Bounds, frames: Int, period: float) -> None:
+        self.bounds, self.frames, self.period = bounds, frames, period
+        self.time = bounds.before
+        self.gaps: tuple[Gap, ...] = ()
+
+    def until(self, begin: int, seconds: float) -> int:
+        """The first read later than `seconds` after read `begin`."""
+        later = np.flatnonzero(self.time[begin:] > self.time[begin] + seconds)
+        return begin + int(later[0]) if len(later) else len(self.time)
+
+    def margin(self, bounds: Bounds, begin: int, end: int) -> float:
+        """How well one clock fits reads begin..end, s; negative where none does."""
+        some = (bounds.read >= begin) & (bounds.read < end)
+        if np.count_nonzero(some) < 2:
+            return self.period
+        early, before = bounds.early[begin:end], bounds.before[begin:end]
+        return line_between(bounds.late[some], bounds.after[some], early, before, self.period, 3e-4).margin
+
+    def breaks(self, begin: int, end: int) -> int | None:
+        """One past the first read at which no clock fits any more; None where one fits all."""
+        if self.margin(self.bounds, begin, end) >= -SLACK * self.period:
+            return None
+        good, bad = begin + 2, end
+        while bad - good > 1:
+            middle = (good + bad) // 2
+            fits = self.margin(self.bounds, begin, middle) >= -SLACK * self.period
+            good, bad = (middle, bad) if fits else (good, middle)
+        return bad
+
+    def mend(self, begin: int, end: int) -> None:
+        """Add the gap that explains the break, or forgive the read: the host was late there, nothing is missing."""
+        found = self._place(begin, end)
+        if found is None:
+            keep = self.bounds.read != end - 1
+            if bool(np.all(keep)):  # a bound from below broke it: only an earlier bound from above can give way
+                keep = self.bounds.read != int(np.max(self.bounds.read[self.bounds.read < end]))
+            kept = {name: getattr(self.bounds, name)[keep] for name in ("late", "after", "read")}
+            self.bounds = replace(self.bounds, **kept)
+            return
+        self.gaps = (*self.gaps, found)
+        self.bounds = shift(self.bounds, self.frames, (found,))
+
+    def _place(self, begin: int, end: int) -> Gap | None:
+        """The earliest place before `end` that lets one clock fit as well as any up to a second beyond it."""
+        last = self.until(end - 1, HORIZON)
+        first = max(begin + 1, int(np.searchsorted(self.time, self.time[end - 1] - HORIZON)))
+        places = np.arange(first, end)
+        for count in self._counts(begin, end, last):
+            step = max(1, len(places) // 24)
+            coarse = [self._margin_with(begin, last, int(p), count) for p in places[::step]]
+            best = int(np.argmax(coarse)) * step
+            near = places[max(0, best - 2 * step) : best + step + 1]
+            fine = np.array([self._margin_with(begin, last, int(p), count) for p in near])
+            if fine.max() >= -SLACK * self.period:
+                place = near[int(np.argmax(fine >= fine.max() - 0.04 * self.period))]
+                return Gap(int(self.frames[place - 1]), count)
+        return None
+
+    def _counts(self, begin: int, end: int, last: int) -> list[int]:
+        """How many frames may be missing, likeliest first."""
+        line = line_below(self.bounds.early[begin : end - 1], self.time[begin : end - 1], self.period)
+        ahead = slice(end - 1, min(end + 7, last))
+        late = float(np.min(self.time[ahead] - line.at(self.bounds.early[ahead])))
+        guess = max(1, round(late / self.period))
+        return [guess, guess + 1, guess - 1] if guess > 1 else [1, 2]
+
+    def _margin_with(self, begin: int, end: int, place: int, count: int) -> float:
+        gap = Gap(int(self.frames[place - 1]), count)
+        return self.margin(shift(self.bounds, self.frames, (gap,)), max(begin, place - 250), end)
