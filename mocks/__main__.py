@@ -61,11 +61,12 @@ def _serve_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--added-mass", nargs="?", type=float, const=5.035, metavar="KG", help="5.035 kg without a value"
     )
-    _add_process_options(parser)
+    add_process_options(parser)
     return parser
 
 
-def _add_process_options(parser: argparse.ArgumentParser) -> None:
+def add_process_options(parser: argparse.ArgumentParser) -> None:
+    """What every process of this kind takes."""
     parser.add_argument("--announce", type=Path, metavar="FILE", help="write the announcement there too")
     parser.add_argument("--parent", type=int, metavar="PID", help="end when that process is gone")
 

@@ -43,8 +43,7 @@ class DialHead:
     def encode(self, values: Float, faulty: NDArray[np.bool_]) -> tuple[NDArray[np.uint8], Float]:
         """Frames, the alarm value where there is no valid one; values as their digits say."""
         counts = hlg1.counts(values, faulty)
-        values: Float = counts * hlg1.UNIT
-        return hlg1.frames(counts), values
+        return hlg1.frames(counts), np.multiply(counts, hlg1.UNIT, dtype=np.float64)
 
     def answers(self, data: bytes, gauge: Gauge) -> list[bytes]:
         """The sensor's answers."""

@@ -1,39 +1,69 @@
-"""How long the drive's server takes, seen from a host on the same machine."""
+"""How the drive's server answers a host on the same machine: `python -m mocks.devices.latency HOST PORT UNIT`.
+
+A host puts the drive's look at itself in the middle between its request and the answer. What the two legs differ by
+is the link's fixed latency: half of it is how much too late the samples then seem.
+"""
 
 from __future__ import annotations
 
+import json
 import socket
+import statistics
 import struct
+import subprocess
+import sys
 import time
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+TRIES, PAUSE, QUICK = 150, 7e-4, 0.3
 
 
 @dataclass(frozen=True, slots=True)
 class Legs:
-    """Least times, s: from the request sent to the drive's look at itself, and from that to the whole answer."""
+    """s: from the request sent to the drive's look at itself, and from that to the whole answer."""
 
     request: float
     answer: float
 
+    @property
+    def fixed(self) -> float:
+        """How much later than taken a sample seems that is placed in the middle."""
+        return (self.answer - self.request) / 2.0
 
-def drive_latency(host: str, port: int, unit: int, looked: Callable[[], float], tries: int = 60) -> Legs:
-    """Reads the ring `tries` times; looked() tells when the drive looked at itself for the last request."""
+
+def drive_latency(host: str, port: int, unit: int, looks: list[float]) -> Legs:
+    """The legs' medians over the quickest reads of a host of its own; `looks` collects when the drive looked."""
+    looks.clear()
+    command = [sys.executable, "-m", "mocks.devices.latency", host, str(port), str(unit)]
+    told = subprocess.run(command, capture_output=True, check=True, timeout=20.0, text=True).stdout
+    reads = [(q, look, p) for q, p in json.loads(told) for look in looks if q < look < p]
+    quickest = sorted(reads, key=lambda read: read[2] - read[0])[: int(QUICK * len(reads))]
+    return Legs(*(statistics.median(r[k + 1] - r[k] for r in quickest) for k in (0, 1)))
+
+
+def ask(host: str, port: int, unit: int) -> list[tuple[float, float]]:
+    """(asked, answered) of TRIES reads of the ring."""
     request = struct.pack(">HHHBBHH", 1, 0, 6, unit, 3, 2000, 64)
     found = []
     with socket.create_connection((host, port), timeout=5.0) as link:
         link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        for _ in range(tries):
-            time.sleep(1e-3)
+        for _ in range(TRIES):
+            time.sleep(PAUSE)
             asked = time.monotonic()
             link.sendall(request)
-            _whole(link, 9 + 128)
-            found.append((looked() - asked, time.monotonic() - looked()))
-    return Legs(min(leg[0] for leg in found), min(leg[1] for leg in found))
+            size = 0
+            while size < 9 + 128:
+                size += len(link.recv(512))
+            found.append((asked, time.monotonic()))
+    return found
 
 
-def _whole(link: socket.socket, size: int) -> bytes:
-    data = b""
-    while len(data) < size:
-        data += link.recv(512)
-    return data
+def main(arguments: Sequence[str]) -> None:
+    """Prints the times as JSON."""
+    host, port, unit = arguments
+    print(json.dumps(ask(host, int(port), int(unit))))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

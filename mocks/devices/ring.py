@@ -48,8 +48,7 @@ class Ring:
         counts = np.rint(self.measure(true) / UNIT).astype(np.int64)
         self.cells[counter % DEPTH] = counts
         self.count = last + 1
-        values: Float = counts * UNIT
-        self.sampled(counter, due, values, true)
+        self.sampled(counter, due, np.multiply(counts, UNIT, dtype=np.float64), true)
 
     def registers(self, word_order: str) -> list[int]:
         """The 64 registers at 2000: number of samples so far, then the cells."""

@@ -97,7 +97,7 @@ class LockedRegisters:
 
     def __init__(self, drive: Any, bases: tuple[int, ...], lock: Any, advance: Callable[[float], None]) -> None:
         self.drive, self.bases, self.lock, self.advance = drive, bases, lock, advance
-        self.looked = 0.0
+        self.looks: list[float] | None = None
 
     def read_block(self, base: int) -> list[int] | None:
         """The block as it is now."""
@@ -120,5 +120,7 @@ class LockedRegisters:
             return found
 
     def _now(self) -> None:
-        self.looked = time.monotonic()
-        self.advance(self.looked)
+        now = time.monotonic()
+        if self.looks is not None:
+            self.looks.append(now)
+        self.advance(now)

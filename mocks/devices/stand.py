@@ -165,8 +165,11 @@ class SimulatedStand:
     def announcement(self) -> dict[str, Any]:
         """What the process says when it is ready."""
         host = "127.0.0.1"
-        drive = drive_latency(host, self.servers.port, self.config.drive.unit_id, lambda: self.registers.looked)
-        latency = {"drive": drive.answer, "drive_request": drive.request}
+        looks: list[float] = []
+        self.registers.looks = looks
+        legs = drive_latency(host, self.servers.port, self.config.drive.unit_id, looks)
+        self.registers.looks = None
+        latency = {"drive": legs.fixed, "drive_request": legs.request, "drive_answer": legs.answer}
         latency |= {name: self.latency(name) for name in self.gauges}
         return {
             "ready": True, "pid": os.getpid(),

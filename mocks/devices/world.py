@@ -47,7 +47,7 @@ class World:
             self._advance(min(steps, CHUNK))
 
     def _advance(self, steps: int) -> None:
-        times: Float = self.now + GRID * np.arange(1, steps + 1)
+        times: Float = self.now + GRID * np.arange(1.0, steps + 1)
         targets = self.mover.targets(times) if self.mover else np.zeros((steps, 3))
         run = self.plant.follow(targets)
         self._keep(run)
@@ -68,7 +68,7 @@ class World:
         self.plant.load(mass)
 
     def at(self, channels: slice, times: Float) -> Float:
-        """Channels [m, n] at times [n], between grid points by straight lines; ValueError for a time that is not kept."""
+        """Channels [m, n] at times [n], straight between grid points; ValueError for a time that is not kept."""
         place = (times - self.start) / GRID - (self._steps - self._end + 1)
         if not (self._end - _KEPT <= place[0] and place[-1] <= self._end - 1 + 1e-6):
             kept = f"the plant is at {self.now:.6f} s and keeps {_KEPT * GRID:g} s"

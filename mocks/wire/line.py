@@ -29,10 +29,10 @@ class Line:
         count, size = frames.shape
         length = size * self.byte_time
         order = np.arange(count)
-        starts = length * order + np.maximum(self.free, np.maximum.accumulate(ready - length * order))
+        starts: Float = length * order + np.maximum(self.free, np.maximum.accumulate(ready - length * order))
         ends: Float = starts + length
-        times: Float = starts[:, None] + self.byte_time * np.arange(1, size + 1)
-        self._append(frames.tobytes(), times.ravel())
+        each: Float = self.byte_time * np.arange(1.0, size + 1)
+        self._append(frames.tobytes(), (starts[:, None] + each).ravel())
         self.free = float(ends[-1])
         return ends
 
