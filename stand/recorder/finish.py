@@ -52,12 +52,19 @@ def finish_file(
     packed.unlink(missing_ok=True)
     with h5py.File(path, "r") as old, h5py.File(packed, "w") as new:
         used = streams if streams is not None else read_streams(old)
-        aligned = _marked(align(used, stand, origin=origin, count=count), fault)
+        order = _word_order(old)
+        aligned = _marked(align(used, stand, origin=origin, count=count, word_order=order), fault)
         _pack(old, new, aligned, stand, streams or {})
         _end(new, aligned, outcome, why, complete)
         new.flush()
     _settle(packed, path)
     return aligned
+
+
+def _word_order(file: h5py.File) -> str | None:
+    """What the drive's probe had found, where there was one."""
+    found = file.get("entry/instruments/drive/identity/word_order")
+    return None if found is None else str(found[()].decode())
 
 
 def _marked(aligned: Aligned, fault: float | None) -> Aligned:
@@ -130,7 +137,9 @@ def _write_data(entry: h5py.Group, aligned: Aligned, stand: Stand) -> None:
 
 
 def _write_clock(group: h5py.Group, aligned: Aligned, name: str) -> None:
-    group["frames_lost"][()] = sum(loss.count for loss in aligned.losses if loss.instrument == name)
+    counts = aligned.counts.get(name, {})
+    group["frames_lost"][()] = counts.get("lost", 0)
+    group["bytes_skipped"][()] = counts.get("junk", 0)
     clock = aligned.clocks.get(name)
     if clock is None:
         return

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
 import signal
 import sys
 import threading
@@ -16,6 +14,7 @@ from stand.runs.halt import obey
 from stand.runs.link import Tap
 from stand.runs.messages import Failed, Finished
 from stand.runs.order import Order, RunOrder, StepOrder
+from stand.runs.priority import prefer
 from stand.runs.replay import perform_replay
 from stand.runs.rig import Rig
 from stand.runs.run import ordered_stand, perform, run_path
@@ -29,9 +28,8 @@ def main() -> int:
     sys.setswitchinterval(SWITCH_INTERVAL)  # the quick stop's thread must not wait 5 ms for its turn
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     connection = Connection(int(sys.argv[1]))
-    with contextlib.suppress(PermissionError, OSError):
-        os.nice(-10)
     stand, order = connection.recv()
+    prefer()
     tap = Tap(connection)
     last = _carry_out(stand, order, connection, tap)
     tap.send(last)

@@ -35,7 +35,8 @@ class RestCheck:
 def identify(rig: Rig) -> dict[str, dict[str, str]]:
     """Every device's identity by its own word; the gauges are told to stream."""
     identities = {name: reader.identify() for name, reader in rig.readers.items()}
-    identities["drive"] = {**identities["drive"], **rig.drive.identify()}
+    found = {**rig.drive.identify(), "word_order": rig.drive.word_order}
+    identities["drive"] = {**identities["drive"], **found}
     return identities
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 
+from stand.errors import StandError
 from stand.safety.trip import Trip
 
 __all__ = ["PHASES", "Failed", "Finished", "Health", "InstrumentHealth", "Outcome", "Phase", "Progress", "Trip"]
@@ -91,5 +92,4 @@ class Failed:
     path: Path | None = None
 
     def __str__(self) -> str:
-        text = f"{self.where}: {self.what}" if self.where else self.what
-        return f"{text}. {self.remedy}" if self.remedy else text
+        return str(StandError(self.what, where=self.where, value=self.value, remedy=self.remedy))

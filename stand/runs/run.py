@@ -15,6 +15,7 @@ from stand.recorder.finish import finish_file
 from stand.runs.checks import check_rest_force, check_state, go_to_rest, identify
 from stand.runs.messages import Finished, Outcome, Phase, Progress
 from stand.runs.order import RunOrder
+from stand.runs.priority import relent
 from stand.runs.rig import Rig
 from stand.runs.rules import guide_rule, preparing_rules, standing_rules
 from stand.runs.streams import stream_specs
@@ -75,6 +76,7 @@ def perform(rig: Rig, order: RunOrder, path: Path) -> Finished:
         rig.come_to_rest()
         announce(rig, "align")
         rig.end_reading()
+        relent()
         recorder.close()
     return close_run(rig, path, span, ending)
 

@@ -70,8 +70,8 @@ def _await_moment(handle: RunHandle, path: Path, moment: str, chance: random.Ran
     time.sleep(chance.uniform(0.1, 2.0))
     if moment == "flush":
         before = path.stat().st_mtime_ns
-        while path.stat().st_mtime_ns == before:
-            pass
+        while path.stat().st_mtime_ns == before and handle.poll() is None:
+            time.sleep(0.0001)
 
 
 def _judge(path: Path, moment: str, killed: float, stop: float | None) -> Kill:
