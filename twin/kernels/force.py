@@ -27,12 +27,27 @@ from twin.kernels.force_layout import (
     THRESHOLD,
     TOLERANCE,
 )
+from twin.kernels.force_leap import CREEPS, SLIDES, leap
 from twin.kernels.force_linear import INPUTS, SLOTS, place_drive, propagator, slot_of
-from twin.kernels.force_series import COLUMNS, CREEPING, ROWS, SLIDING, SMOOTH, U, V, compiled, series
+from twin.kernels.force_series import (
+    COLUMNS,
+    CREEPING,
+    ROWS,
+    SLIDING,
+    SMOOTH,
+    SUM,
+    SWING,
+    P,
+    Q,
+    S,
+    U,
+    V,
+    X,
+    compiled,
+    series,
+)
 from twin.kernels.force_switch import NEVER, SPEED, STRAND1, STRAND2, swing, switch, value
 
-#: |v|/v_s above which tanh is 1 to 1e-12, and below which it is its argument to 1e-12 of F_c
-SLIDES, CREEPS = 14.0, 1.5e-4
 #: largest change of v/v_s in one series of the tanh
 REACH = 4.0
 MOST_SWITCHES = 200
@@ -75,67 +90,6 @@ def law_at(k, y):
     return SLIDING if z > SLIDES else (CREEPING if z < CREEPS else SMOOTH)
 
 
-@compiled("f8(f8[::1], f8, f8, i8)")
-def strand_margin(y, stretch, tension, which):
-    """Above 0 while the strand stays as it is, in newtons."""
-    return tension if y[3 + which] != 0.0 else -min(stretch, tension)
-
-
-@compiled("b1(f8, f8, f8)")
-def stays(f0, fm, f1):
-    """True where three values and the parabola through them stay well above 0."""
-    low = min(f0, min(fm, f1))
-    bend = abs(f0 - 2.0 * fm + f1)
-    return low > bend + 0.1 * abs(f1 - f0)
-
-
-@compiled("void(f8[::1], f8[::1], f8, f8, f8[::1])")
-def margins(k, y, x, w, out):
-    """Both strands' margins at a state, N."""
-    single = k[RIM] == 0.0
-    far, rate = (x, w) if single else (y[2], y[3])
-    pull = k[C1] * (far - y[0]) + k[REST]
-    out[0] = strand_margin(y, pull, pull + k[B1] * (rate - y[1]), STRAND1)
-    if single:
-        out[1] = math.inf
-        return
-    pull = k[C2] * (x - y[2]) + k[REST]
-    out[1] = strand_margin(y, pull, pull + k[B2] * (w - y[3]), STRAND2)
-
-
-@compiled("b1(f8[::1], f8[::1], f8[:, :, ::1], i8, f8[::1], f8, f8[:, ::1], f8[:, ::1])")
-def leap(k, y, M, law, cubic, dt, Y, G):
-    """One exact step over a whole sample; False, with y untouched, where something may switch within it."""
-    sign = 0.0 if law == CREEPING else math.copysign(1.0, y[1])
-    for part in range(2):
-        for row in range(4):
-            total = M[part, row, 8] + sign * M[part, row, 9]
-            for column in range(4):
-                total += M[part, row, column] * y[column] + M[part, row, 4 + column] * cubic[column]
-            Y[part, row] = total
-        for j in range(4, 7):
-            Y[part, j] = y[j]
-    slow, fast = abs(y[1]), abs(y[1])
-    for part in range(2):
-        if law == SLIDING and Y[part, 1] * sign <= SLIDES * k[DRY_SPEED]:
-            return False
-        slow, fast = min(slow, abs(Y[part, 1])), max(fast, abs(Y[part, 1]))
-    if law == CREEPING and fast >= CREEPS * k[DRY_SPEED]:
-        return False
-    if fast + abs(y[1] - 2.0 * Y[0, 1] + Y[1, 1]) > k[THRESHOLD]:
-        return False
-    margins(k, y, cubic[0], cubic[1] / dt, G[0])
-    x = cubic[0] + 0.5 * (cubic[1] + 0.5 * (cubic[2] + 0.5 * cubic[3]))
-    margins(k, Y[0], x, (cubic[1] + cubic[2] + 0.75 * cubic[3]) / dt, G[1])
-    x = cubic[0] + cubic[1] + cubic[2] + cubic[3]
-    margins(k, Y[1], x, (cubic[1] + 2.0 * cubic[2] + 3.0 * cubic[3]) / dt, G[2])
-    if not (stays(G[0, 0], G[1, 0], G[2, 0]) and (k[RIM] == 0.0 or stays(G[0, 1], G[1, 1], G[2, 1]))):
-        return False
-    for j in range(4):
-        y[j] = Y[1, j]
-    return True
-
-
 @compiled("f8(f8[::1], f8[:, ::1], i8, i8, f8)")
 def trusted(k, C, law, terms, size):
     """The share of a step up to which its series holds: converged, and within one law of friction."""
@@ -145,6 +99,31 @@ def trusted(k, C, law, terms, size):
     z, change = abs(C[V, 0]) / k[DRY_SPEED], swing(C, V, terms, eta) / k[DRY_SPEED]
     reach = max(z - SLIDES + 1.0, 1.0) if law == SLIDING else REACH
     return eta * reach / change if change > reach else eta
+
+
+@compiled("b1(f8[::1], f8[:, ::1], f8[::1], i8)")
+def calm(k, C, y, law):
+    """True where bounds alone show that a converged series holds to the step's end and nothing switches in it."""
+    single, moved = k[RIM] == 0.0, C[SUM, SWING + V]
+    z = abs(y[1]) / k[DRY_SPEED]
+    if moved > k[DRY_SPEED] * (z - SLIDES if law == SLIDING else REACH):
+        return False
+    speed = y[1] if k[SIGNED] != 0.0 else abs(y[1])
+    if (speed - moved <= k[THRESHOLD]) if y[6] != 0.0 else (speed + moved >= k[THRESHOLD]):
+        return False
+    driven = abs(C[X, 1]) + abs(C[X, 2]) + abs(C[X, 3])
+    if y[4] != 0.0:
+        if C[P, 0] <= C[SUM, SWING + P]:
+            return False
+    else:
+        far, swung = (C[X, 0], driven) if single else (C[S, 0], C[SUM, SWING + S])
+        if -(far - C[U, 0] + k[REST] / k[C1]) <= swung + C[SUM, SWING + U]:
+            return False
+    if single:
+        return True
+    if y[5] != 0.0:
+        return C[Q, 0] > C[SUM, SWING + Q]
+    return -(C[X, 0] - C[S, 0] + k[REST] / k[C2]) > driven + C[SUM, SWING + S]
 
 
 @compiled("f8(f8[::1], f8[::1], f8[:, ::1], f8[::1], f8, f8)")
@@ -159,6 +138,10 @@ def stride(k, y, C, cubic, at, dt):
     fast = (1.0 if k[SIGNED] != 0.0 else sign) if y[6] != 0.0 else 0.0
     count, size = series(k, C, share * dt, y[4], y[5], law, sign, fast, 1.0)
     terms = int(count)
+    if size <= k[TOLERANCE] and calm(k, C, y, law):
+        for j in range(4):
+            y[j] = C[SUM, j]
+        return 1.0
     end = trusted(k, C, law, terms, size)
     what = 0
     for event in (STRAND1, STRAND2, SPEED):
@@ -175,33 +158,41 @@ def stride(k, y, C, cubic, at, dt):
     return 1.0 if end >= 1.0 else at + end * share
 
 
+@compiled("i8(f8[::1], f8[::1], f8[:, ::1], f8[::1], f8[:, ::1], i8, f8)")
+def sample(k, y, C, cubic, drive, i, dt):
+    """Carries y over the interval after sample i by series, from switch to switch. Returns a Status."""
+    x0, w0, x1, w1 = drive[i, 0], drive[i, 1] * dt, drive[i + 1, 0], drive[i + 1, 1] * dt
+    cubic[0], cubic[1] = x0, w0
+    cubic[2], cubic[3] = 3.0 * (x1 - x0) - 2.0 * w0 - w1, w0 + w1 - 2.0 * (x1 - x0)
+    at, steps = 0.0, 0
+    while 0.0 <= at < 1.0:
+        before = at
+        at = stride(k, y, C, cubic, at, dt)
+        steps += 1
+        if steps > MOST_SWITCHES and 0.0 <= at < before + 1e-6:
+            return TOO_MANY
+    return FINE if math.isfinite(y[0] + y[1] + y[2] + y[3]) else NOT_FINITE
+
+
 @compiled("i8(f8[::1], f8[::1], f8[:, ::1], f8, f8[:, ::1])")
 def advance(k, y, drive, dt, out):
     """Carries y over len(drive) - 1 samples; out[i] = u, u', F at sample i + 1. Returns a Status."""
     C, cubic = np.zeros((ROWS, COLUMNS)), np.zeros(4)
-    M, known = np.zeros((SLOTS, 2, 4, INPUTS)), np.zeros(SLOTS)
-    Y, G = np.zeros((2, 7)), np.zeros((3, 2))
-    for i in range(len(drive) - 1):
-        x0, w0, x1, w1 = drive[i, 0], drive[i, 1] * dt, drive[i + 1, 0], drive[i + 1, 1] * dt
-        cubic[0], cubic[1] = x0, w0
-        cubic[2], cubic[3] = 3.0 * (x1 - x0) - 2.0 * w0 - w1, w0 + w1 - 2.0 * (x1 - x0)
-        law, done = law_at(k, y), False
+    M, known = np.zeros((SLOTS, INPUTS, 8)), np.zeros(SLOTS)
+    i, n = 0, len(drive) - 1
+    while i < n:
+        law = law_at(k, y)
         if law != SMOOTH and y[6] == 0.0:
             slot = slot_of(y[4], y[5], law)
             if known[slot] == 0.0:
                 propagator(k, C, dt, y[4], y[5], law, M[slot])
                 known[slot] = 1.0
-            done = leap(k, y, M[slot], law, cubic, dt, Y, G)
-        at, switches = 0.0, 0
-        while not done:
-            before = at
-            at = stride(k, y, C, cubic, at, dt)
-            switches += 1
-            if at < 0.0 or at >= 1.0:
-                done = True
-            elif switches > MOST_SWITCHES and at - before < 1e-6:
-                return TOO_MANY
-        if not math.isfinite(y[0] + y[1] + y[2] + y[3]):
-            return NOT_FINITE
-        out[i, 0], out[i, 1], out[i, 2] = y[0], y[1], gauge(k, y, x1, drive[i + 1, 1])
+            i = leap(k, y, M[slot], law, drive, i, dt, out)
+            if i == n:
+                break
+        status = sample(k, y, C, cubic, drive, i, dt)
+        if status != FINE:
+            return status
+        i += 1
+        out[i - 1, 0], out[i - 1, 1], out[i - 1, 2] = y[0], y[1], gauge(k, y, drive[i, 0], drive[i, 1])
     return FINE

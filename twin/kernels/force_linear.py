@@ -1,8 +1,8 @@
 # mypy: allow-untyped-defs, allow-untyped-calls
 """Exact propagation over one sample where nothing switches: between switches the force model is linear.
 
-State at the middle and the end of a sample = M (u, u', s, s', drive's cubic, weight and rest tension, friction's
-sign). The columns are unit responses, summed from the same series as everything else.
+State at the middle and the end of a sample = M^T (u, u', s, s', drive's cubic, weight and rest tension, friction's
+sign). The rows are unit responses, summed from the same series as everything else.
 """
 
 from __future__ import annotations
@@ -54,9 +54,9 @@ def respond(k, C, y, cubic, begin, end, taut1, taut2, law, sign, one, dt):
     return steps
 
 
-@compiled("void(f8[::1], f8[:, ::1], f8, f8, f8, i8, f8[:, :, ::1])")
+@compiled("void(f8[::1], f8[:, ::1], f8, f8, f8, i8, f8[:, ::1])")
 def propagator(k, C, dt, taut1, taut2, law, M):
-    """Fills M[0] (middle) and M[1] (end), each [4, 10], with the responses to unit inputs."""
+    """Fills M [10, 8]: to each unit input the response in the middle (first four) and at the end of a sample."""
     y, cubic = np.zeros(4), np.zeros(4)
     for column in range(INPUTS):
         y[:] = 0.0
@@ -69,9 +69,9 @@ def propagator(k, C, dt, taut1, taut2, law, M):
         sign = 1.0 if column == 9 else 0.0
         # no friction but in its own column: SLIDING with sign 0 leaves it out, CREEPING is linear in v
         respond(k, C, y, cubic, 0.0, 0.5, taut1, taut2, law, sign, one, dt)
-        M[0, :, column] = y
+        M[column, :4] = y
         respond(k, C, y, cubic, 0.5, 1.0, taut1, taut2, law, sign, one, dt)
-        M[1, :, column] = y
+        M[column, 4:] = y
     C[X, :] = 0.0
 
 
