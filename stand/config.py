@@ -169,7 +169,7 @@ class Stand(_Part):
             host, _, port = str(drive["tcp"]).rpartition(":")
             link = {"host": host, "port": int(port), "unit_id": drive.get("unit_id", 1)}
         latency = announcement.get("latency") or {}
-        changed: dict[str, Any] = {"drive": _relink(self.drive, link, _asymmetry(latency))}
+        changed: dict[str, Any] = {"drive": _relink(self.drive, link, latency.get("drive"))}
         for name in ("force_gauge", "dial_gauge"):
             gauge = announcement[name]
             link = {"port": gauge["port"], "baud": gauge.get("baud", self.instruments[name].link.baud)}  # type: ignore[union-attr]
@@ -184,13 +184,6 @@ class Stand(_Part):
         """Text that `load_stand_text` reads back to an equal stand."""
         tables = self.model_dump(mode="json", exclude={"setup"}, exclude_none=True)
         return write_toml({"name": tables.pop("name"), "setup": setup_table(self.setup), **tables})
-
-
-def _asymmetry(latency: Mapping[str, float]) -> float | None:
-    """How much later than the bracket's middle the drive looks at itself, negated: (back - out) / 2, s."""
-    if "drive" not in latency or "drive_request" not in latency:
-        return None
-    return (float(latency["drive"]) - float(latency["drive_request"])) / 2
 
 
 def _relink(instrument: Any, link: Mapping[str, Any], latency: float | None) -> Any:

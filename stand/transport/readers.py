@@ -19,6 +19,7 @@ from stand.drive.profile import load_profile
 from stand.errors import DeviceError, StandError
 from stand.transport import modbus
 from stand.transport.link import Clock, ModbusLink
+from stand.transport.priority import raise_priority
 from stand.transport.raw import Raw, RawBytes, RawRegisters
 from stand.transport.ring import RingDecoder
 
@@ -128,6 +129,7 @@ class GaugeReader:
         return os.read(descriptor, 65536)
 
     def _run(self, port: serial.Serial, sink: Sink, on_error: OnError) -> None:
+        raise_priority()
         descriptor = port.fileno()
         try:
             while not self._stopping.is_set():
@@ -209,6 +211,7 @@ class RingReader:
         self._thread = None
 
     def _run(self, sink: Sink, on_error: OnError) -> None:
+        raise_priority()
         due = self._clock()
         try:
             while not self._stopping.is_set():
