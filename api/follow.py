@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from api.experiment import Experiment, State
 from api.latency import Latency
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
 
 #: the record is published this often while only time goes on, s
 EVERY = 0.25
+#: samples that are served at once, 20 ms
+GATHER = 40
 #: how a run's outcome reads; an emergency stop is a trip by the operator
 ENDS = {Outcome.FINISHED: State.FINISHED, Outcome.STOPPED: State.STOPPED, Outcome.TRIPPED: State.TRIPPED}
 
@@ -40,6 +44,8 @@ class Follower:
     ) -> None:
         self.experiment, self.twin, self.latency = experiment, twin, Latency()
         self._changed, self._sampled, self._health, self._now = changed, sampled, health, now
+        self._end = State.FAILED
+        self._waiting: list[LiveBlock] = []
 
     def tell(self, **changes: Any) -> None:
         """Replace the record and say so."""
@@ -53,7 +59,7 @@ class Follower:
             Phase: self._phase,
             Progress: self._progress,
             Health: self._health,
-            Trip: lambda trip: self.tell(why=str(trip)),
+            Trip: self._trip,
             Finished: self._finished,
             Failed: self._failed,
         }
@@ -69,19 +75,41 @@ class Follower:
         self.tell(elapsed=event.elapsed, dropped=event.dropped, latency=self.latency.quantiles())
 
     def _finished(self, event: Finished) -> None:
+        if self._waiting:
+            self._serve(joined(self._waiting))
         state = ENDS[event.outcome]
         if event.trip is not None and event.trip.rule == "operator":
             state = State.EMERGENCY
         run = event.path.stem if event.path else None
         self.tell(state=state, why=event.why, run=run, latency=self.latency.quantiles())
 
+    def _trip(self, event: Trip) -> None:
+        self._end = State.EMERGENCY if event.rule == "operator" else State.TRIPPED
+        self.tell(why=str(event))
+
     def _failed(self, event: Failed) -> None:
-        self.tell(state=State.FAILED, why=str(event), run=event.path.stem if event.path else None)
+        """Nothing more will come; where a trip came before, that is what counts."""
+        why = f"{self.experiment.why}; then {event}" if self._end is not State.FAILED else str(event)
+        self.tell(state=self._end, why=why, run=event.path.stem if event.path else None)
 
     def _block(self, block: LiveBlock) -> None:
+        """Gather short blocks: a twin and a screen are served as well by fifty a second."""
+        self._waiting.append(block)
+        if sum(len(waiting.time) for waiting in self._waiting) >= GATHER:
+            self._serve(joined(self._waiting))
+            self._waiting.clear()
+
+    def _serve(self, block: LiveBlock) -> None:
         score = self.twin.push(block.time, block.x, block.u, block.F) if self.twin is not None else None
         span = float(block.time[-1] - block.time[0])
         self._sampled(block, score, self.latency.add(self._now() - block.newest_arrival + span))
         elapsed = float(block.time[-1])
         if not self.experiment.streaming or elapsed - self.experiment.elapsed > EVERY:
             self.tell(streaming=True, elapsed=elapsed, latency=self.latency.quantiles())
+
+
+def joined(blocks: Sequence[LiveBlock]) -> LiveBlock:
+    """Consecutive blocks as one."""
+    columns = ("time", "x", "u", "F", "quality")
+    arrays = {name: np.concatenate([getattr(block, name) for block in blocks]) for name in columns}
+    return LiveBlock(first=blocks[0].first, newest_arrival=blocks[-1].newest_arrival, **arrays)
