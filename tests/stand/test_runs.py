@@ -15,7 +15,7 @@ from stand.clock.model import LiveBlock
 from stand.config import load_stand
 from stand.errors import DeviceError, InputError
 from stand.excitation.spec import Excitation, Shape
-from stand.runs import Failed, Phase, Progress, RunOrder, Step, StepOrder, raised, start, status
+from stand.runs import Failed, Phase, Progress, RunOrder, Step, StepOrder, jog, raised, start, status
 from stand.runs.health import Meter
 from stand.runs.link import LIVE_WAITING, Tap
 
@@ -55,8 +55,11 @@ def test_an_acquisition_that_dies_is_reported_as_such() -> None:
 
 
 def test_a_stand_that_is_not_there_is_named() -> None:
+    found = status(load_stand())
+    assert "127.0.0.1:502" in found["drive"]["problem"]  # type: ignore[index]
+    assert "/dev/ttyUSB0" in found["force_gauge"]["problem"]  # type: ignore[index]
     with pytest.raises(DeviceError, match=r"127\.0\.0\.1:502"):
-        status(load_stand())
+        jog(load_stand(), 0.001)
 
 
 def test_errors_keep_their_kind_and_their_words_across_processes() -> None:
