@@ -1,27 +1,62 @@
+# `make demo` and `make test` are all that a new user needs; `make help` lists the rest.
 PYTHON ?= python3.11
 STAMP := .venv/.installed
+BIN := .venv/bin
+SEED ?= 1
+SEEDS ?= 50
+MINUTES ?= 10
+COUNT ?= 20
+OUT ?= build/blind
 export NUMBA_CACHE_DIR ?= $(CURDIR)/build/numba
 
-.PHONY: install demo test quick lint
+.PHONY: help install demo test quick lint browser slow soak kills trips align bench blind
 
-install: $(STAMP)
+help: ## this list
+	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1 \t/' | expand -t 18
+
+install: $(STAMP) ## the environment in .venv, versions as in constraints.txt
 
 $(STAMP): pyproject.toml constraints.txt
 	test -d .venv || $(PYTHON) -m venv .venv
-	.venv/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt uv
-	.venv/bin/uv pip install --quiet --python .venv/bin/python -c constraints.txt -e '.[dev]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt uv
+	$(BIN)/uv pip install --quiet --python $(BIN)/python -c constraints.txt -e '.[dev]'
 	touch $@
 
-demo: install
-	.venv/bin/stand demo
+demo: install ## one experiment on a simulated stand that hides an effect, compared and diagnosed
+	$(BIN)/stand demo
 
-test: install lint quick
+test: install lint quick ## lint, types, import contracts and the quick tests
 
 quick: install
-	.venv/bin/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2
 
 lint: install
-	.venv/bin/ruff check .
-	.venv/bin/ruff format --check .
-	.venv/bin/mypy
-	.venv/bin/lint-imports
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+browser: install ## the page in a real browser (needs Chromium)
+	$(BIN)/python -m pytest -m browser tests/api
+
+slow: install ## the long checks of models and time base
+	$(BIN)/python -m pytest -m slow -n 2 --timeout 1200
+
+soak: install ## MINUTES=10 of 2 kHz under load: no sample lost, latency of live R
+	$(BIN)/python -m tests.loop.soak --minutes $(MINUTES)
+
+kills: install ## COUNT=20 acquisitions killed at random moments
+	$(BIN)/python -m tests.loop.kills --count $(COUNT)
+
+trips: install ## from the sample that shows a fault to the stop on the wire
+	$(BIN)/python -m tests.loop.trips
+
+align: install ## SEEDS=50 alignments with known truth
+	$(BIN)/python -m tests.stand.alignment --seeds $(SEEDS)
+
+bench: install ## speed against other codes, into build/bench.json
+	$(BIN)/uv pip install --quiet --python $(BIN)/python -c constraints.txt -e '.[bench]'
+	$(BIN)/python -m bench
+
+blind: install ## SEED=1: the battery of hidden effects
+	$(BIN)/python -m tests.blind --seed $(SEED) --out $(OUT)
