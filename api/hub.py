@@ -5,19 +5,23 @@ from __future__ import annotations
 import asyncio
 import json
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 QUEUE_BLOCKS = 64
+#: blocks that are kept for who joins in the middle, 30 s
+PAST_BLOCKS = 1500
 
 
 class Watcher:
     """One client's lane: states by kind, of which only the newest counts, and a bounded queue of blocks."""
 
-    def __init__(self, limit: int = QUEUE_BLOCKS) -> None:
+    def __init__(self, past: Iterable[str] = (), limit: int = QUEUE_BLOCKS) -> None:
         self._states: dict[str, str] = {}
-        self._blocks: deque[str] = deque()
+        self._past, self._blocks = list(past), deque[str]()
         self._limit, self._ready = limit, asyncio.Event()
+        if self._past:
+            self._ready.set()
         self.dropped = 0
 
     def offer_state(self, kind: str, text: str) -> None:
@@ -39,8 +43,9 @@ class Watcher:
         """All messages that wait, states first; waits until there is one."""
         await self._ready.wait()
         self._ready.clear()
-        messages = [*self._states.values(), *self._blocks]
+        messages = [*self._states.values(), *self._past, *self._blocks]
         self._states.clear()
+        self._past.clear()
         self._blocks.clear()
         return messages
 
@@ -51,6 +56,7 @@ class Hub:
     def __init__(self) -> None:
         self._watchers: set[Watcher] = set()
         self._last: dict[str, str] = {}
+        self._past: deque[str] = deque(maxlen=PAST_BLOCKS)
         self._loop: asyncio.AbstractEventLoop | None = None
 
     def bind(self, loop: asyncio.AbstractEventLoop) -> None:
@@ -61,8 +67,8 @@ class Hub:
         return len(self._watchers)
 
     def join(self) -> Watcher:
-        """A new watcher, who gets the newest state of each kind at once."""
-        watcher = Watcher()
+        """A new watcher, who gets the newest state of each kind and the newest blocks at once."""
+        watcher = Watcher(self._past)
         for kind, text in self._last.items():
             watcher.offer_state(kind, text)
         self._watchers.add(watcher)
@@ -89,6 +95,12 @@ class Hub:
         for watcher in self._watchers:
             watcher.offer_state(kind, text)
 
+    def clear_past(self) -> None:
+        """Forget the blocks so far: a new run begins."""
+        if self._loop is not None:
+            self._loop.call_soon_threadsafe(self._past.clear)
+
     def _block(self, text: str) -> None:
+        self._past.append(text)
         for watcher in self._watchers:
             watcher.offer_block(text)

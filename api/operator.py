@@ -100,6 +100,7 @@ class Operator:
         created = datetime.now(UTC).isoformat(timespec="seconds")
         given = order.model_dump(exclude_none=True)
         experiment = Experiment(uuid.uuid4().hex[:12], given, order.model, created, PHASES, float(plan.duration))
+        self.hub.clear_past()
         self._changed(experiment)
         self.jobs.hold(True)
         given_on = (experiment, self._handle, twin, tuple(campaign))
@@ -185,7 +186,7 @@ class Operator:
 
     def _afterwards(self, last: Experiment, twin: Any, campaign: Sequence[Path]) -> None:
         self.hub.publish_state("runs", {"newest": last.run})
-        if last.run is not None:
+        if last.run is not None and last.state is not State.FAILED:
             path = self.runs.path(last.run)
             store(path, twin)
             self.jobs.submit("compare", [path])

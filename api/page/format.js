@@ -30,5 +30,8 @@ export function el(name, attributes = {}, ...children) {
   return made;
 }
 
+// Facts in a line, as many as fit.
+export const facts = (pairs) => el("dl", { class: "facts" }, ...pairs.map(([term, value]) => el("div", {}, el("dt", {}, term), el("dd", {}, value))));
+
 export const definitions = (pairs) =>
   el("dl", {}, ...pairs.flatMap(([term, value]) => [el("dt", {}, term), el("dd", {}, value)]));

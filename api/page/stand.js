@@ -1,6 +1,6 @@
 // The stand's devices and its preparation.
 import { post } from "./server.js";
-import { definitions, el, fixed, short } from "./format.js";
+import { el, facts as factsLine, fixed, short } from "./format.js";
 
 const list = document.getElementById("device-list"), result = document.getElementById("preparation-result");
 const buttons = document.querySelectorAll("#preparation button");
@@ -33,5 +33,5 @@ function device({ title, state, detail, rate, clock, latency, lost, age, fields 
   if (lost) facts.push(["frames lost", String(lost)]);
   if (age !== null && age !== undefined && age > 0.5) facts.push(["last sample", `${fixed(age, 1, "s")} ago`]);
   return el("div", { class: "device" }, el("h3", {}, title, el("span", { class: `state ${tones[state] || ""}` }, state)),
-    detail ? el("p", { class: "small muted" }, detail) : null, facts.length ? definitions(facts) : null);
+    detail ? el("p", { class: "small muted" }, detail) : null, facts.length ? factsLine(facts) : null);
 }

@@ -55,6 +55,20 @@ def test_who_joins_late_gets_the_newest_states_at_once() -> None:
     assert [json.loads(text) for text in asyncio.run(run())] == [{"type": "experiment", "id": "a"}]
 
 
+def test_who_joins_in_the_middle_of_a_run_sees_what_came_before() -> None:
+    async def run() -> list[str]:
+        hub = Hub()
+        hub.bind(asyncio.get_running_loop())
+        for n in range(200):
+            hub.publish_block({"n": n})
+        await asyncio.sleep(0)
+        watcher = hub.join()
+        hub.publish_block({"n": 200})
+        return await watcher.next()
+
+    assert [json.loads(text)["n"] for text in asyncio.run(run())][:200] == list(range(200))
+
+
 def test_a_peak_of_one_sample_survives_decimation() -> None:
     values = np.zeros(64)
     values[37] = 250.0
