@@ -54,8 +54,8 @@ def align(streams: Streams, stand: Stand, origin: float, count: int, word_order:
     for name, track in tracks.items():
         channel = CHANNELS[name]
         values, sigma, missing, fault = _on_grid(track, grid, name == "drive")
-        quality[missing] |= _BITS[name]
-        quality[fault] |= Quality.FAULT
+        quality[missing] |= np.uint8(_BITS[name])
+        quality[fault] |= np.uint8(Quality.FAULT)
         zeros[channel] = float(np.median(values[: round(REST * RATE)])) if name != "force_gauge" else 0.0
         channels[channel] = values - zeros[channel]
         uncertainty[channel] = sigma

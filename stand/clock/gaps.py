@@ -6,14 +6,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from stand.clock.arrivals import Bounds, Int, Reads
+from stand.clock.arrivals import Bounds, Float, Int, Reads
 from stand.clock.lines import line_below, line_between
 
 #: share of a frame period by which bounds may miss each other before a frame must be missing
 SLACK = 0.06
-#: share of a frame period within which one of a stretch of reads comes, where no timer bounds it
-PROMPT, BUNCHED = 0.5, 0.75
-STRETCH, READS = 0.04, 12
+#: where no timer bounds them: the promptest read of a stretch comes within this share of a frame period, and the
+#: stretches, s, that are tried for it, shortest first
+PROMPT, STEADY = 0.75, 0.3
+STRETCHES = (0.04, 0.08, 0.16, 0.32, 0.64)
+#: a read that is late is forgiven; so many in one run say that the host was too busy for this search
+FORGIVEN = 40
 #: reads are thinned to the promptest in this many seconds; a loss is placed with a second of reads beyond it
 THIN, HORIZON, SPAN = 0.004, 1.0, 10.0
 
@@ -37,9 +40,12 @@ def shift(bounds: Bounds, frames: Int, gaps: tuple[Gap, ...]) -> Bounds:
 
 def find_gaps(bounds: Bounds, reads: Reads, period: float) -> tuple[Gap, ...]:
     """All gaps, one after another in time."""
-    search = _Search(*_watched(bounds, reads, period), period)
+    watched = _watched(bounds, reads, period)
+    if watched is None:
+        return ()
+    search = _Search(*watched, period)
     begin = 0
-    while begin < len(search.time):
+    while begin < len(search.time) and search.forgiven < FORGIVEN:
         end = search.until(begin, SPAN)
         broken = search.breaks(begin, end)
         if broken is not None:
@@ -51,22 +57,28 @@ def find_gaps(bounds: Bounds, reads: Reads, period: float) -> tuple[Gap, ...]:
     return search.gaps
 
 
-def _watched(bounds: Bounds, reads: Reads, period: float) -> tuple[Bounds, Int]:
-    """Bounds from both sides, thinned where no timer gives the second side; and the frames received by each read."""
+def _watched(bounds: Bounds, reads: Reads, period: float) -> tuple[Bounds, Int] | None:
+    """Bounds from both sides and the frames received by each read; None where the host was too busy to have any.
+
+    Without a timer the reads are thinned, and of each stretch of time the promptest is taken to be prompt. The stretch
+    is the shortest whose promptest reads keep level with their neighbours (a gap is one step among many).
+    """
     if bounds.two_sided:
         return bounds, reads.frames
     slope = line_below(bounds.early, bounds.before, period).slope
     rest = bounds.before - slope * bounds.early
     keep = _promptest(rest, bounds.before, THIN, 1)
     early, before, rest, frames = bounds.early[keep], bounds.before[keep], rest[keep], reads.frames[keep]
-    gap = float(np.median(np.diff(before))) if len(before) > 1 else THIN
-    first = _promptest(rest, before, max(STRETCH, READS * gap), 5)
-    share = PROMPT if gap < 2 * THIN else BUNCHED
-    late, after = early[first], before[first] - share * period
-    return Bounds(early, before, late, after, first, True, bounds.residual), frames
+    for stretch in STRETCHES:
+        first = _promptest(rest, before, stretch, 3)
+        steps = np.abs(np.diff(rest[first]))
+        if len(steps) > 5 and float(np.quantile(steps, 0.9)) < STEADY * period:
+            late, after = early[first], before[first] - PROMPT * period
+            return Bounds(early, before, late, after, first, True, bounds.residual), frames
+    return None
 
 
-def _promptest(rest: np.ndarray, time: np.ndarray, stretch: float, least: int) -> Int:
+def _promptest(rest: Float, time: Float, stretch: float, least: int) -> Int:
     """The read with the least delay in each stretch of time that holds at least `least` reads."""
     number = np.floor((time - time[0]) / stretch).astype(np.int64)
     order = np.lexsort((rest, number))
@@ -83,6 +95,7 @@ class _Search:
         self.bounds, self.frames, self.period = bounds, frames, period
         self.time = bounds.before
         self.gaps: tuple[Gap, ...] = ()
+        self.forgiven = 0
 
     def until(self, begin: int, seconds: float) -> int:
         """The first read later than `seconds` after read `begin`."""
@@ -112,6 +125,7 @@ class _Search:
         """Add the gap that explains the break, or forgive the read: the host was late there, nothing is missing."""
         found = self._place(begin, end)
         if found is None:
+            self.forgiven += 1
             keep = self.bounds.read != end - 1
             if bool(np.all(keep)):  # a bound from below broke it: only an earlier bound from above can give way
                 keep = self.bounds.read != int(np.max(self.bounds.read[self.bounds.read < end]))
@@ -127,7 +141,7 @@ class _Search:
         first = max(begin + 1, int(np.searchsorted(self.time, self.time[end - 1] - HORIZON)))
         places = np.arange(first, end)
         for count in self._counts(begin, end, last):
-            step = max(1, len(places) // 24)
+            step = max(1, len(places) // 16)
             coarse = [self._margin_with(begin, last, int(p), count) for p in places[::step]]
             best = int(np.argmax(coarse)) * step
             near = places[max(0, best - 2 * step) : best + step + 1]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -91,12 +92,12 @@ def line_between(k_low: Float, low: Float, k_high: Float, high: Float, slope: fl
     return Line(base + (top + bottom) / 2 - total * centre, total, (top - bottom) / 2)
 
 
-def _golden(value, low: float, high: float) -> float:  # type: ignore[no-untyped-def]
+def _golden(value: Callable[[float], float], low: float, high: float) -> float:
     """The place of a concave function's maximum."""
     ratio = 0.6180339887498949
     a, b = high - ratio * (high - low), low + ratio * (high - low)
     fa, fb = value(a), value(b)
-    for _ in range(64):
+    for _ in range(44):
         if fa < fb:
             low, a, fa = a, b, fb
             b = low + ratio * (high - low)
