@@ -8,8 +8,8 @@ import math
 from twin.kernels.force_layout import B1, B2, C1, C2, DRY_SPEED, REST, RIM, THRESHOLD
 from twin.kernels.force_series import CREEPING, SLIDING, compiled
 
-#: |v|/v_s above which tanh is 1 to 1e-12, and below which it is its argument to 1e-12 of F_c
-SLIDES, CREEPS = 14.0, 1.5e-4
+#: |v|/v_s above which tanh is 1, and below which it is its argument, to rounding
+SLIDES, CREEPS = 19.0, 4e-6
 
 
 @compiled("f8(f8[:, ::1], i8, f8, f8, f8, f8, f8, f8, f8, f8, f8)")
