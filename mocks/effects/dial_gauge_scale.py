@@ -12,7 +12,7 @@ def act(world: World, gain: float) -> None:
 EFFECT = Effect(
     "dial-gauge-scale",
     "dial-gauge",
-    (Size("gain", "-", 1.03, 1.003, 1.1, null=1.0),),
+    (Size("gain", "-", 1.01, 1.0005, 1.05, null=1.0),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

@@ -12,6 +12,6 @@ def act(world: World, gain: float) -> None:
 EFFECT = Effect(
     "drive-scale",
     "drive",
-    (Size("gain", "-", 1.03, 1.002, 1.08, null=1.0),),
+    (Size("gain", "-", 1.01, 1.0005, 1.05, null=1.0),),
     act,
 )

@@ -12,6 +12,6 @@ def act(world: World, friction: float) -> None:
 EFFECT = Effect(
     "fibre-pulley-slip",
     "pulley",
-    (Size("friction", "-", 0.15, 0.05, 0.3, null=0.0),),
+    (Size("friction", "-", 0.15, 0.02, 0.4, null=0.0),),
     act,
 )

@@ -46,11 +46,12 @@ def drive_at(drive, i, share, dt, out):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def relax_both(y, report, bristles, h, p):  # type: ignore[no-untyped-def]
-    """Guide's and bearing's bristles after h at the present speeds."""
-    bristles[0] = relax(bristles[0], y[V], p.friction_velocity, p.presliding, h)
+def relax_both(y, ahead, bristles, h, p):  # type: ignore[no-untyped-def]
+    """Guide's and bearing's bristles after h; `ahead` times the last accelerations is added to their speeds."""
+    v, w = y[V] + ahead * bristles[2], y[W] + ahead * bristles[3]
+    bristles[0] = relax(bristles[0], v, p.friction_velocity, p.presliding, h)
     if p.bearing > 0.0:
-        bristles[1] = relax(bristles[1], y[W], p.bearing_creep, p.bearing_presliding, h)
+        bristles[1] = relax(bristles[1], w, p.bearing_creep, p.bearing_presliding, h)
 
 
 @njit(cache=True)
@@ -74,8 +75,8 @@ def runge_kutta(y, t, h, drive, i, start, dt, z, contact, p, tables, size, work,
 @njit(cache=True)
 def step(y, t, h, drive, i, start, dt, z, half, contact, p, tables, size, work, report):  # type: ignore[no-untyped-def]
     """Friction's half-step, then Runge-Kutta into work[0]; y stays as it is, `half` holds the bristles."""
-    half[0], half[1] = z[0], z[1]
-    relax_both(y, report, half, 0.5 * h, p)
+    half[:] = z
+    relax_both(y, 0.5 * h, half, 0.5 * h, p)
     runge_kutta(y, t, h, drive, i, start, dt, half, contact, p, tables, size, work, report)
 
 
@@ -118,12 +119,13 @@ def locate(which, share, y, t, h, drive, i, start, dt, z, half, contact, p, tabl
 
 @njit(cache=True)
 def march(t, y, z, contact, drive, dt, p_record, tables, size, out):  # type: ignore[no-untyped-def]
-    """Carries y, bristles z [2] and contacts [4] (all in place) over len(out) grid intervals of dt; out [n, 11].
+    """Carries y, z and contacts [4] (all in place) over len(out) grid intervals of dt; out [n, 11].
 
-    drive: float64 [n + 1, 2], x and x' at the grid points. Returns the time at the end.
+    z: float64 [4], guide's and bearing's bristles, the last accelerations of weight and rim. drive: float64 [n + 1, 2],
+    x and x' at the grid points. Returns the time at the end.
     """
     p = p_record[0]
-    work, report, half = np.zeros((7, SIZE)), np.zeros(REPORTS), np.zeros(2)
+    work, report, half = np.zeros((7, SIZE)), np.zeros(REPORTS), np.zeros(4)
     at, dy = np.zeros(3), np.zeros(SIZE)
     for i in range(len(out)):
         passed = 0.0
@@ -141,8 +143,9 @@ def march(t, y, z, contact, drive, dt, p_record, tables, size, out):  # type: ig
                 h = max(share * h, 1e-12)
                 contact[which] = True
             y[:] = work[0]
-            z[0], z[1] = half[0], half[1]
-            relax_both(y, report, z, 0.5 * h, p)
+            z[:] = half
+            relax_both(y, 0.0, z, 0.5 * h, p)
+            z[2], z[3] = work[4, V], work[4, W]
             passed += h
             drive_at(drive, i, passed / dt, dt, at)
             for k in range(CONTACTS):

@@ -84,7 +84,7 @@ class Physics:
     rest_stretch: float = 0.0  # of the whole fibre under the weight's rest tension, creep included; set by `record`
     rest_stretch2: float = 0.0  # likewise under the tension that balances it on the drive's side of the pulley
     rest_pull: float = 0.0  # that tension
-    step: float = 25e-6
+    step: float = 50e-6
 
     def record(self) -> NDArray[np.void]:
         """A record array of length 1 with these fields."""

@@ -50,7 +50,7 @@ class Plant:
         self._tables = self.world.tables.packed()
         self._size = self.world.state_size()
         self._state = march.rest_state(self.world.physics)
-        self._bristles, self._contacts = np.zeros(2), np.array([True, True, False, False])
+        self._bristles, self._contacts = np.zeros(4), np.array([True, True, False, False])
         self._servo, self._target = np.zeros(2), np.zeros(3)
         self._end = np.zeros(2)
         self._step = 0

@@ -12,6 +12,7 @@ from mocks.plant.physics import Physics, Tables, no_tables, physics
 from mocks.plant.rig import Rig
 from mocks.plant.stages import DriveStage, Stage
 
+FASTEST = 2.0  # m/s that a weight reaches
 CHANNELS = ("drive_position", "weight_position", "fibre_force")
 
 
@@ -45,9 +46,18 @@ class World:
         """The constants for the kernel, the step small enough for the stiffest part."""
         p = self.physics
         p.tables = float(any(np.any(t) for t in self.tables.packed()))
-        if p.compliance > 0.0:
-            p.step = min(p.step, p.b * p.share2 / (p.c * p.share2 + 1.0 / p.compliance))
+        p.step = min(p.step, 1.5 / self._fastest_rate())
         return p.record()
+
+    def _fastest_rate(self) -> float:
+        """1/s of the stiffest part, rim or drive's mount (Runge-Kutta bears 2.7 a step)."""
+        p, rate = self.physics, 1.0
+        if p.rim_mass > 0.0 and not p.locked:
+            damping = p.b + p.b_slope * max(0.0, FASTEST - p.b_threshold)
+            rate = max(rate, damping * (p.share1 + p.share2) / p.rim_mass)
+        if p.compliance > 0.0:
+            rate = max(rate, (p.c * p.share2 + 1.0 / p.compliance) / (p.b * p.share2))
+        return rate
 
     def state_size(self) -> int:
         """How many of the kernel's states move."""

@@ -240,7 +240,7 @@ def test_drive_causes_stand_between_the_encoder_and_the_fibre() -> None:
     plain = run(TAUT)
     for name in ("drive-backlash", "drive-compliance", "drive-delay", "drive-scale", "drive-pitch-error"):
         assert np.array_equal(taut(name).x, plain.x), name
-    assert np.allclose(taut("drive-scale").truth[:, X], 1.03 * plain.x)
+    assert np.allclose(taut("drive-scale").truth[:, X], 1.01 * plain.x)
     late = taut("drive-delay").truth[:, X]
     assert np.allclose(late[40:], plain.x[:-40], atol=1e-9)
     gap = plain.x - taut("drive-backlash").truth[:, X]
@@ -259,7 +259,7 @@ def test_gauge_causes_follow_their_definitions() -> None:
     n = 40  # 2 ms
     assert np.allclose(run(STRONG, "dial-gauge-delay").u[n:], plain.u[:-n], atol=1e-12)
     assert np.allclose(run(STRONG, "force-gauge-delay").F[n:], plain.F[:-n], atol=1e-9)
-    assert np.allclose(run(STRONG, "dial-gauge-scale").u, 1.03 * plain.u)
+    assert np.allclose(run(STRONG, "dial-gauge-scale").u, 1.01 * plain.u)
     assert np.allclose(run(STRONG, "force-gauge-scale").F, 1.03 * plain.F)
     assert np.allclose(run(STRONG, "force-gauge-offset").F, plain.F + 2.0)
     assert np.allclose(run(STRONG, "force-gauge-drift").F, plain.F + 0.2 * plain.time)

@@ -1,0 +1,156 @@
+"""Which stands a battery has: effect, size, operator's errors, noise and motions, all from one seed."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from mocks.battery.calibrate import main_size
+from mocks.effects import Effect, Size, Value, everything, find
+from mocks.plant.campaign import draw_motions
+from mocks.plant.motion import Motion
+from mocks.plant.operator import Stand, draw_stand
+from mocks.plant.rig import Rig
+from mocks.record import Noise
+
+KINDS = ("single", "clean", "double", "outside")
+PER_CAUSE, CLEAN, DOUBLE, OUTSIDE = 5, 150, 60, 30
+STRENGTHS = (6.0, 1.5, 10.0, 3.0, 18.0)  # wanted, cause by cause in turn
+CLEAR = (5.0, 16.0)  # wanted range where two are hidden, or one outside the catalogue
+HUM = {"fibre_force": 1.0, "weight_position": 5e-5, "drive_position": 5e-5}  # amplitude against that in N
+
+
+@dataclass(frozen=True)
+class Case:
+    """One stand to be diagnosed: nothing in it is written to disk but by `mocks.battery.store`.
+
+    kind: one of KINDS. wanted: the strength each hidden effect was drawn for. seed: of its recordings.
+    """
+
+    number: int
+    kind: str
+    hidden: Mapping[str, Mapping[str, Value]]
+    wanted: Mapping[str, float]
+    stand: Stand
+    motions: tuple[Motion, ...]
+    noise: Noise
+    seed: int
+
+    @property
+    def name(self) -> str:
+        """Its folder: nothing but a number."""
+        return f"stand-{self.number:04d}"
+
+
+def battery(seed: int, kinds: Sequence[str] = KINDS, share: float = 1.0) -> list[Case]:
+    """All stands of a seed, mixed; share < 1 keeps that part of each kind (at least one of each)."""
+    plan = [entry for kind in kinds for entry in _some(_PLANS[kind](seed), share)]
+    order = np.random.default_rng([seed, 99]).permutation(len(plan))
+    return [_case(seed, number, *plan[k]) for number, k in enumerate(order)]
+
+
+Plan = tuple[str, tuple[tuple[str, float], ...], int]  # kind, (effect, wanted strength) ..., its own number
+
+
+def _some(plan: list[Plan], share: float) -> list[Plan]:
+    keep = max(1, round(share * len(plan)))
+    return [plan[k] for k in np.linspace(0, len(plan) - 1, keep).astype(int)]
+
+
+def _singles(seed: int) -> list[Plan]:
+    names = [e.name for e in everything() if e.catalogued]
+    return [("single", ((n, STRENGTHS[k % len(STRENGTHS)]),), k) for k in range(PER_CAUSE) for n in names]
+
+
+def _cleans(seed: int) -> list[Plan]:
+    return [("clean", (), k) for k in range(CLEAN)]
+
+
+def _doubles(seed: int) -> list[Plan]:
+    """Pairs that act on different parts of the stand."""
+    rng = np.random.default_rng([seed, 7])
+    catalogue = [e for e in everything() if e.catalogued]
+    plans: list[Plan] = []
+    while len(plans) < DOUBLE:
+        first, second = (catalogue[k] for k in rng.choice(len(catalogue), 2, replace=False))
+        if first.acts_on != second.acts_on:
+            plans.append(("double", ((first.name, _clear(rng)), (second.name, _clear(rng))), len(plans)))
+    return plans
+
+
+def _outsides(seed: int) -> list[Plan]:
+    rng = np.random.default_rng([seed, 8])
+    names = [e.name for e in everything() if not e.catalogued]
+    return [("outside", ((names[k % len(names)], _clear(rng)),), k) for k in range(OUTSIDE)]
+
+
+def _clear(rng: np.random.Generator) -> float:
+    """A strength that is well seen."""
+    return math.exp(rng.uniform(math.log(CLEAR[0]), math.log(CLEAR[1])))
+
+
+_PLANS = {"single": _singles, "clean": _cleans, "double": _doubles, "outside": _outsides}
+
+
+def _case(seed: int, number: int, kind: str, effects: tuple[tuple[str, float], ...], own: int) -> Case:
+    rng = np.random.default_rng([seed, KINDS.index(kind), own, *(_key(name) for name, _ in effects)])
+    hidden = {name: draw_values(find(name), wanted, rng) for name, wanted in effects}
+    stand = draw_stand(rng, draw_belief(rng), errors=1.0)
+    motions = tuple(draw_motions(rng))
+    return Case(number, kind, hidden, dict(effects), stand, motions, draw_noise(rng), int(rng.integers(2**31)))
+
+
+def _key(name: str) -> int:
+    return int.from_bytes(name.encode(), "little") % (2**31)
+
+
+def draw_belief(rng: np.random.Generator) -> Rig:
+    """What an operator may have built: the nominal stand, or for half of them one that is a little different."""
+    rig = Rig()
+    if rng.random() < 0.5:
+        return rig
+    changes = {"fibre_stiffness": 0.15, "fibre_damping": 0.25, "guide_friction": 0.3, "pulley_inertia": 0.25}
+    values = {name: float(f"{getattr(rig, name) * rng.uniform(1 - s, 1 + s):.2g}") for name, s in changes.items()}
+    return rig.but(**values)
+
+
+def draw_noise(rng: np.random.Generator) -> Noise:
+    """Sensors about as noisy as they should be."""
+    return Noise(x=5e-6 * rng.uniform(0.3, 1.0), u=6e-6 * rng.uniform(0.8, 1.2), F=0.12 * rng.uniform(0.8, 1.2))
+
+
+def draw_values(effect: Effect, wanted: float, rng: np.random.Generator) -> dict[str, Value]:
+    """Parameters of an effect that shows about as strongly as wanted; places, phases, times over their ranges."""
+    main = main_size(effect)
+    values = {s.name: _free(s, rng) for s in effect.sizes if s is not main}
+    size = size_for(effect.name, wanted)
+    if main.signed and rng.random() < 0.5:
+        size = 2.0 * main.null - size
+    values[main.name] = size * HUM.get(str(values.get("signal")), 1.0)
+    return values
+
+
+def _free(size: Size, rng: np.random.Generator) -> Value:
+    return str(rng.choice(size.choices)) if size.choices else float(rng.uniform(size.low, size.high))
+
+
+def size_for(name: str, wanted: float) -> float:
+    """Size at which an effect shows about as strongly as wanted: a power law through the measured table, within it."""
+    table, main = np.array(_measured()[name]), main_size(find(name))
+    null = main.null if np.isfinite(main.null) else 0.0
+    sizes, strengths = np.log(np.abs(table[:, 0] - null)), np.log(table[:, 1])
+    power, factor = np.polyfit(sizes, strengths, 1)
+    wished = (math.log(wanted) - factor) / power
+    return null + math.exp(min(max(wished, sizes.min()), sizes.max()))
+
+
+@cache
+def _measured() -> dict[str, list[list[float]]]:
+    table: dict[str, list[list[float]]] = json.loads(Path(__file__).with_name("strengths.json").read_text())
+    return table
