@@ -28,6 +28,7 @@ from api.twins import make_twin, store
 if TYPE_CHECKING:
     from stand.config import Stand
     from stand.runs import Health, RunHandle
+    from twin.live import LiveTwin
 
 #: the devices are asked for their status at this interval while someone watches and nothing runs, s
 STATUS_EVERY = 10.0
@@ -87,7 +88,7 @@ class Operator:
 
         excitation, setup = order.excitation(), order.setup(self.stand)
         plan = make_plan(excitation, self.stand)
-        twin = make_twin(self._model(order.model), setup)
+        model = self._model(order.model)
         self._take()
         try:
             self._refuse_after_trip()
@@ -103,7 +104,7 @@ class Operator:
         self.hub.clear_past()
         self._changed(experiment)
         self.jobs.hold(True)
-        given_on = (experiment, self._handle, twin, tuple(campaign))
+        given_on = (experiment, self._handle, lambda: make_twin(model, setup), tuple(campaign))
         self._thread = threading.Thread(target=self._follow, args=given_on, daemon=True)
         self._thread.start()
         return experiment
@@ -169,10 +170,14 @@ class Operator:
             remedy = "See to the cause, then reset the stand: nothing resumes by itself"
             raise Conflict("the stand was stopped and stays stopped", where="stand", value=self._tripped, remedy=remedy)
 
-    def _follow(self, experiment: Experiment, handle: RunHandle, twin: Any, campaign: Sequence[Path]) -> None:
+    def _follow(
+        self, experiment: Experiment, handle: RunHandle, twinned: Callable[[], LiveTwin], campaign: Sequence[Path]
+    ) -> None:
+        """In a thread of its own. The twin is made here: it may have to compile, while the run connects."""
         stream = Stream(self.hub, experiment.id)
-        follower = Follower(experiment, twin, changed=self._changed, sampled=stream.sampled, health=self._health)
+        follower = Follower(experiment, None, changed=self._changed, sampled=stream.sampled, health=self._health)
         try:
+            follower.twin = twinned()
             last = follower.follow(handle.events())
             self._tripped = last.why if last.state in (State.TRIPPED, State.EMERGENCY) else ""
         except Exception as error:
@@ -182,16 +187,17 @@ class Operator:
         finally:
             self._busy.release()
             self.jobs.hold(False)
-        self._afterwards(last, twin, campaign)
+        self._afterwards(last, follower.twin, campaign)
 
-    def _afterwards(self, last: Experiment, twin: Any, campaign: Sequence[Path]) -> None:
+    def _afterwards(self, last: Experiment, twin: LiveTwin | None, campaign: Sequence[Path]) -> None:
+        closed = self.runs.path(last.run) if last.run is not None and last.state is not State.FAILED else None
+        if closed is not None:
+            store(closed, twin)
         self.hub.publish_state("runs", {"newest": last.run})
-        if last.run is not None and last.state is not State.FAILED:
-            path = self.runs.path(last.run)
-            store(path, twin)
-            self.jobs.submit("compare", [path])
+        if closed is not None:
+            self.jobs.submit("compare", [closed])
             if can_diagnose():
-                self.jobs.submit("diagnose", [*campaign, path])
+                self.jobs.submit("diagnose", [*campaign, closed])
         self._look()
 
     def _changed(self, experiment: Experiment) -> None:

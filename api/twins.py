@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from stand.setup import Setup
     from twin.live import LiveTwin
+
+#: how long a reader of a fresh recording may keep its twin's notes waiting, s
+PATIENCE = 10.0
 
 
 def make_twin(name: str, setup: Setup) -> LiveTwin:
@@ -23,5 +27,14 @@ def store(path: Path, twin: LiveTwin | None) -> None:
     """Keep what the twin used and said in the recording, `/entry/live`."""
     from twin.live import store_live
 
-    if twin is not None:
-        store_live(path, twin)
+    if twin is None:
+        return
+    end = time.monotonic() + PATIENCE
+    while True:
+        try:
+            store_live(path, twin)
+            return
+        except BlockingIOError:  # somebody reads the file just now, and HDF5 locks it
+            if time.monotonic() > end:
+                raise
+            time.sleep(0.1)

@@ -84,7 +84,7 @@ def done(server: Server) -> tuple[dict[str, Any], list[dict[str, Any]]]:
 def test_an_experiment_ends_as_a_run_in_the_list(server: Server, done: tuple[dict[str, Any], Any]) -> None:
     view, _ = done
     assert (view["state"], view["why"]) == ("finished", "")
-    run = server.http.get(f"/runs/{view['run']}").json()
+    run = server.until(f"/runs/{view['run']}", lambda run: run["jobs"])
     assert run["complete"]
     assert run["seconds"] == pytest.approx(view["seconds"], abs=0.2)
     with h5py.File(server.folder / f"{view['run']}.h5") as file:
