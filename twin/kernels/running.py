@@ -91,15 +91,22 @@ def push(total, a, b):
 
 @compiled("f8(f8[::1], f8[:, ::1], f8[::1], f8[::1], f8[::1])")
 def slide(total, ring, place, a, b):
-    """The same over the last len(ring[0]) samples; place[0] counts what was ever written to the ring."""
+    """The same over the last len(ring[0]) samples; place[0] counts what was ever written to the ring.
+
+    Once in a turn of the ring everything is summed afresh about the newest sample.
+    """
     size = ring.shape[1]
     for i in range(len(a)):
         at = int(place[0]) % size
-        if place[0] == 0.0:
-            total[SHIFT_A], total[SHIFT_B] = a[0], b[0]
-        if place[0] >= size:
-            gather(total, ring[0], ring[1], at, at + 1, -1.0)
-        ring[0, at], ring[1, at] = a[i], b[i]
-        gather(total, ring[0], ring[1], at, at + 1, 1.0)
+        if at == 0:
+            ring[0, 0], ring[1, 0] = a[i], b[i]
+            total[:] = 0.0
+            total[SHIFT_A], total[SHIFT_B] = a[i], b[i]
+            gather(total, ring[0], ring[1], 0, size if place[0] > 0.0 else 1, 1.0)
+        else:
+            if place[0] >= size:
+                gather(total, ring[0], ring[1], at, at + 1, -1.0)
+            ring[0, at], ring[1, at] = a[i], b[i]
+            gather(total, ring[0], ring[1], at, at + 1, 1.0)
         place[0] += 1.0
     return correlation(total)

@@ -101,12 +101,13 @@ class LiveTwin:
             if missing:
                 self._gaps.append(self._raw.count)
         self._raw.append(time, x - self._zero[0], u - self._zero[1], F)
-        if self._state is None and self._raw.count * self.dt >= REST:
+        if self._state is None and self._raw.count >= round(REST / self.dt):
             self._begin()
 
     def _begin(self) -> None:
         """Zeros from the rest; the model hangs at rest."""
-        self._zero = (float(np.median(self._raw["x"])), float(np.median(self._raw["u"])))
+        rest = round(REST / self.dt)
+        self._zero = (float(np.median(self._raw["x"][:rest])), float(np.median(self._raw["u"][:rest])))
         self._raw.shift("x", -self._zero[0])
         self._raw.shift("u", -self._zero[1])
         self._drive = np.array([[self._raw["x"][0], 0.0]])

@@ -7,7 +7,6 @@ import math
 from stand.setup import System
 from twin.compare.comparison import Comparison, ModelRun
 
-
 #: below this R the lag says nothing of clocks
 TELLING = 0.95
 
