@@ -1,0 +1,338 @@
+"""Planar gradient-deficient ANCF cable elements (Gerstmayr, Shabana 2006; Berzeri, Shabana 2000).
+
+Cubic Hermite interpolation of positions and slopes; Green strain e = (r'.r' - 1)/2 with N = EA (e + tau e'), bending
+energy EI |r''|^2 / 2 (exact to the order of the strain), both with stiffness-proportional damping, consistent mass.
+Contact: at evenly spaced material points a pressure k_n * depth, and bristles k_t z that follow the rim's motion and
+yield at mu times the pressure; z of every point is an inner variable. The pulley turns with J / r^2.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from twin.kernels.fibre_ancf_layout import BAND, CONTACT, EI, ELEMENTS, EVEN, GAUSS, LENGTHS, POINTS, SHAPES, SHEAR
+from twin.kernels.fibre_layout import (
+    DRAG,
+    DTX,
+    DTY,
+    EA,
+    FIBRE_MASS,
+    GX,
+    GY,
+    LENGTH,
+    MASS,
+    RADIUS,
+    RIM,
+    SLIDING,
+    TAU,
+    WEIGHT,
+)
+from twin.kernels.fibre_rig import drive_end, guide, weight_end
+from twin.kernels.fibre_step import ASSEMBLE, GAUGE, RESIDUAL, SETTLE
+from twin.kernels.jit import compiler
+
+compiled = compiler("fibre")
+
+_FAST = {"contract", "nsz"}
+
+
+@compiled("void(float64[::1], float64, float64, boolean, float64[:,::1])", fastmath=_FAST)
+def linear(c, length, g, derive, out):  # type: ignore[no-untyped-def]
+    """Rows of an element's constant matrices: out[0:4] mass, out[4:8] bending, out[8:12] their part of the tangent."""
+    m = c[FIBRE_MASS] / c[LENGTH] * length / 420.0
+    k = c[EI] / length**3
+    l, l2 = length, length * length
+    mass = (156.0, 22.0 * l, 54.0, -13.0 * l, 4.0 * l2, 13.0 * l, -3.0 * l2)
+    out[0, 0], out[0, 1], out[0, 2], out[0, 3] = m * mass[0], m * mass[1], m * mass[2], m * mass[3]
+    out[1, 0], out[1, 1], out[1, 2], out[1, 3] = m * mass[1], m * mass[4], m * mass[5], m * mass[6]
+    out[2, 0], out[2, 1], out[2, 2], out[2, 3] = m * mass[2], m * mass[5], m * mass[0], -m * mass[1]
+    out[3, 0], out[3, 1], out[3, 2], out[3, 3] = m * mass[3], m * mass[6], -m * mass[1], m * mass[4]
+    out[4, 0], out[4, 1], out[4, 2], out[4, 3] = 12.0 * k, 6.0 * k * l, -12.0 * k, 6.0 * k * l
+    out[5, 0], out[5, 1], out[5, 2], out[5, 3] = 6.0 * k * l, 4.0 * k * l2, -6.0 * k * l, 2.0 * k * l2
+    out[6, 0], out[6, 1], out[6, 2], out[6, 3] = -12.0 * k, -6.0 * k * l, 12.0 * k, -6.0 * k * l
+    out[7, 0], out[7, 1], out[7, 2], out[7, 3] = 6.0 * k * l, 2.0 * k * l2, -6.0 * k * l, 4.0 * k * l2
+    if derive:
+        for i in range(4):
+            for j in range(4):
+                out[8 + i, j] = (1.0 / g + c[DRAG]) * out[i, j] + (g + c[TAU]) * out[4 + i, j]
+
+
+@compiled(
+    "void(float64[:,::1], float64, float64, float64, float64, float64, float64, float64, float64)", fastmath=_FAST
+)
+def spread(k, d0, d1, d2, d3, bxx, bxy, byx, byy):  # type: ignore[no-untyped-def]
+    """Add d_i d_j B to the 2 x 2 blocks (i, j) of k."""
+    d = (d0, d1, d2, d3)
+    for i in range(4):
+        xx, xy, yx, yy = d[i] * bxx, d[i] * bxy, d[i] * byx, d[i] * byy
+        for j in range(4):
+            k[2 * i, 2 * j] += xx * d[j]
+            k[2 * i, 2 * j + 1] += xy * d[j]
+            k[2 * i + 1, 2 * j] += yx * d[j]
+            k[2 * i + 1, 2 * j + 1] += yy * d[j]
+
+
+@compiled(
+    "void(float64[::1], float64, float64, boolean, float64[::1], float64[::1], float64[::1], float64[:,::1],"
+    "float64[::1], float64[:,::1])",
+    fastmath=_FAST,
+)
+def element(c, length, g, derive, q, v, a, lin, f, k):  # type: ignore[no-untyped-def]
+    """One element's inertia, bending and axial forces f [8] and tangent k [8, 8]; q, v, a: its nodes', [8]."""
+    tau, drag = c[TAU], c[DRAG]
+    for i in range(4):
+        fx, fy = 0.0, 0.0
+        for j in range(4):
+            fx += lin[i, j] * (a[2 * j] + drag * v[2 * j]) + lin[4 + i, j] * (q[2 * j] + tau * v[2 * j])
+            fy += lin[i, j] * (a[2 * j + 1] + drag * v[2 * j + 1]) + lin[4 + i, j] * (q[2 * j + 1] + tau * v[2 * j + 1])
+        weight = lin[i, 0] + lin[i, 2]
+        f[2 * i], f[2 * i + 1] = fx - weight * c[GX], fy - weight * c[GY]
+    if derive:
+        for i in range(4):
+            for j in range(4):
+                k[2 * i, 2 * j] = k[2 * i + 1, 2 * j + 1] = lin[8 + i, j]
+                k[2 * i, 2 * j + 1] = k[2 * i + 1, 2 * j] = 0.0
+    at = int(c[SHAPES])
+    d, slope, p, own = np.empty((GAUSS, 4)), np.empty((GAUSS, 2)), np.empty((GAUSS, 2)), np.empty(GAUSS)
+    mean = 0.0
+    for i in range(GAUSS):
+        d[i, 0], d[i, 1], d[i, 2], d[i, 3] = c[at + 1] / length, c[at + 2], c[at + 3] / length, c[at + 4]
+        w = c[at]
+        at += 5
+        rx = d[i, 0] * (q[0] - q[4]) + d[i, 1] * q[2] + d[i, 3] * q[6]
+        ry = d[i, 0] * (q[1] - q[5]) + d[i, 1] * q[3] + d[i, 3] * q[7]
+        vx = d[i, 0] * (v[0] - v[4]) + d[i, 1] * v[2] + d[i, 3] * v[6]
+        vy = d[i, 0] * (v[1] - v[5]) + d[i, 1] * v[3] + d[i, 3] * v[7]
+        slope[i, 0], slope[i, 1] = w * rx, w * ry
+        p[i, 0], p[i, 1] = (g + tau) * rx + g * tau * vx, (g + tau) * ry + g * tau * vy
+        own[i] = 0.5 * (rx * rx + ry * ry - 1.0) + tau * (rx * vx + ry * vy)
+        mean += w * own[i]
+    whole, part = length * c[EA] * (1.0 - c[EVEN]), length * c[EA] * c[EVEN]
+    for i in range(GAUSS):
+        own[i] = whole * mean + part * own[i]
+        sx, sy = own[i] * slope[i, 0], own[i] * slope[i, 1]
+        for j in range(4):
+            f[2 * j] += d[i, j] * sx
+            f[2 * j + 1] += d[i, j] * sy
+    if derive:
+        row, column = np.zeros(8), np.zeros(8)
+        at = int(c[SHAPES])
+        for i in range(GAUSS):
+            w = c[at]
+            at += 5
+            sx, sy, px, py = slope[i, 0], slope[i, 1], p[i, 0], p[i, 1]
+            for j in range(4):
+                row[2 * j] += d[i, j] * sx
+                row[2 * j + 1] += d[i, j] * sy
+                column[2 * j] += whole * w * d[i, j] * px
+                column[2 * j + 1] += whole * w * d[i, j] * py
+            tension = w * own[i] * g
+            sx, sy = part * sx, part * sy
+            spread(k, d[i, 0], d[i, 1], d[i, 2], d[i, 3], tension + sx * px, sx * py, sy * px, tension + sy * py)
+        for i in range(8):
+            for j in range(8):
+                k[i, j] += row[i] * column[j]
+
+
+@compiled(
+    "UniTuple(float64, 2)(float64[::1], float64, float64, boolean, float64, int64, float64[::1], float64[::1],"
+    "float64[::1], float64[::1], float64[::1], float64[:,::1], float64[:,::1])",
+    fastmath=_FAST,
+)
+def contact(c, length, g, derive, rim, first, q, v, zb, z, f, k, edge):  # type: ignore[no-untyped-def]
+    """One element's contact with the rim: adds to f, k and edge [2, 8] (column, row of the pulley).
+
+    rim: the rim's speed. Returns the pulley's force and its derivative.
+    """
+    radius, points = c[RADIUS], int(c[POINTS])
+    at = int(c[SHAPES]) + 5 * GAUSS
+    w = length / points
+    kn, kt, mu = c[CONTACT] * w, c[SHEAR] * w, c[SLIDING]
+    torque, corner = 0.0, 0.0
+    for point in range(points):
+        s0, s1, s2, s3 = c[at], c[at + 1] * length, c[at + 2], c[at + 3] * length
+        at += 4
+        x = s0 * q[0] + s1 * q[2] + s2 * q[4] + s3 * q[6]
+        y = s0 * q[1] + s1 * q[3] + s2 * q[5] + s3 * q[7]
+        rho2 = x * x + y * y
+        if rho2 >= radius * radius:
+            z[first + point] = 0.0
+            continue
+        rho = math.sqrt(rho2)
+        nx, ny = x / rho, y / rho
+        tx, ty = ny, -nx
+        push = kn * (radius - rho)
+        slide = tx * (s0 * v[0] + s1 * v[2] + s2 * v[4] + s3 * v[6])
+        slide += ty * (s0 * v[1] + s1 * v[3] + s2 * v[5] + s3 * v[7]) - rim * rho / radius
+        bristle = zb[first + point] + g * slide
+        grip = kt * bristle
+        slips = abs(grip) > mu * push
+        if slips:
+            grip = math.copysign(mu * push, grip)
+            bristle = grip / kt if kt > 0.0 else 0.0
+        z[first + point] = bristle
+        fx, fy = -push * nx + grip * tx, -push * ny + grip * ty
+        f[0] += s0 * fx
+        f[1] += s0 * fy
+        f[2] += s1 * fx
+        f[3] += s1 * fy
+        f[4] += s2 * fx
+        f[5] += s2 * fy
+        f[6] += s3 * fx
+        f[7] += s3 * fy
+        torque -= grip * rho / radius
+        if derive:
+            nn, tt, nt = kn * g, -push * g / rho, -grip * g / rho
+            tn = 0.0
+            if slips:
+                tn = -math.copysign(mu * kn * g, grip)
+                row_n, row_t = -tn * rho / radius, 0.0
+                col = 0.0
+            else:
+                tt += kt * g
+                col = -kt * g * rho / radius
+                row_n, row_t = 0.0, col
+                corner += kt * g * (rho / radius) ** 2
+            spread(
+                k, s0, s1, s2, s3,
+                nn * nx * nx + tt * tx * tx + nt * nx * tx + tn * tx * nx,
+                nn * nx * ny + tt * tx * ty + nt * nx * ty + tn * tx * ny,
+                nn * ny * nx + tt * ty * tx + nt * ny * tx + tn * ty * nx,
+                nn * ny * ny + tt * ty * ty + nt * ny * ty + tn * ty * ny,
+            )
+            d = (s0, s1, s2, s3)
+            for i in range(4):
+                edge[0, 2 * i] += d[i] * col * tx
+                edge[0, 2 * i + 1] += d[i] * col * ty
+                edge[1, 2 * i] += d[i] * (row_n * nx + row_t * tx)
+                edge[1, 2 * i + 1] += d[i] * (row_n * ny + row_t * ty)
+    return torque, corner
+
+
+@compiled(
+    "void(float64[::1], float64, float64, float64[::1], float64[::1], float64[::1], int64, int64, float64[:,::1])"
+)
+def gather(c, x, w, q, v, a, e, elements, out):  # type: ignore[no-untyped-def]
+    """Positions, velocities and accelerations of element e's two nodes, out [3, 8]."""
+    base = 4 * e - 1
+    for i in range(8):
+        if base + i >= 1:
+            out[0, i], out[1, i], out[2, i] = q[base + i], v[base + i], a[base + i]
+    if e == 0:
+        px, py, dx, dy, _, _ = weight_end(c, q[0])
+        out[0, 0], out[0, 1], out[1, 0], out[1, 1] = px, py, dx * v[0], dy * v[0]
+        out[2, 0], out[2, 1] = dx * a[0], dy * a[0]
+        for i in range(2, 4):
+            out[0, i], out[1, i], out[2, i] = q[i - 1], v[i - 1], a[i - 1]
+    if e == elements - 1:
+        out[0, 4], out[0, 5], out[1, 4], out[1, 5] = drive_end(c, x, w)
+        out[2, 4] = out[2, 5] = 0.0
+        for i in range(6, 8):
+            out[0, i], out[1, i], out[2, i] = q[base + i - 2], v[base + i - 2], a[base + i - 2]
+
+
+@compiled(ASSEMBLE)
+def assemble(mode, c, g, x, w, q, v, a, zb, z, r, band, border):  # type: ignore[no-untyped-def]
+    """M a - f and, if asked, its derivative over the stage's velocities; see `fibre_step`.
+
+    Unknowns: u, slope at the weight, position and slope of nodes 1 to N - 1, slope at the drive, s.
+    """
+    if mode == SETTLE:
+        return 1
+    derive = mode != RESIDUAL
+    elements, radius, points = int(c[ELEMENTS]), c[RADIUS], int(c[POINTS])
+    s = 4 * elements + 1
+    r[: s + 1] = 0.0
+    r[s] = c[RIM] * a[s]
+    if derive:
+        band[:, :] = 0.0
+        border[:, :] = 0.0
+        border[0, s] = c[RIM] / g
+    _, _, dx, dy, cx, cy = weight_end(c, q[0])
+    node, lin = np.empty((3, 8)), np.empty((12, 4))
+    f, k, edge = np.empty(8), np.empty((8, 8)), np.empty((2, 8))
+    previous, pull, bend = -1.0, 0.0, 0.0
+    for e in range(elements):
+        length = c[int(c[LENGTHS]) + e]
+        if length != previous:
+            linear(c, length, g, derive, lin)
+            previous = length
+        gather(c, x, w, q, v, a, e, elements, node)
+        element(c, length, g, derive, node[0], node[1], node[2], lin, f, k)
+        if e == 0:
+            pull = math.hypot(f[0], f[1])
+        near = radius + length
+        touches = radius > 0.0 and min(node[0, 0] ** 2 + node[0, 1] ** 2, node[0, 4] ** 2 + node[0, 5] ** 2) < near * near
+        base = 4 * e - 1
+        if touches:
+            edge[:, :] = 0.0
+            torque, corner = contact(c, length, g, derive, v[s], points * e, node[0], node[1], zb, z, f, k, edge)
+            r[s] += torque
+            if derive and corner != 0.0:
+                border[0, s] += corner
+        else:
+            for i in range(points * e, points * (e + 1)):
+                z[i] = 0.0
+        if 0 < e < elements - 1:
+            for i in range(8):
+                r[base + i] += f[i]
+            if derive:
+                for i in range(8):
+                    for j in range(8):
+                        band[base + i, BAND + j - i] += k[i, j]
+                if touches:
+                    for i in range(8):
+                        border[0, base + i] += edge[0, i]
+                        border[1, base + i] += edge[1, i]
+            continue
+        if e == 0:
+            bend = g * (f[0] * cx + f[1] * cy)
+        for i in range(8):
+            row, scale = base + i, 1.0
+            if e == 0 and i < 2:
+                row, scale = 0, dx if i == 0 else dy
+            elif e == 0 and i < 4:
+                row = i - 1
+            elif e == elements - 1 and i >= 4:
+                if i < 6:
+                    continue
+                row = base + i - 2
+            r[row] += scale * f[i]
+            if not derive:
+                continue
+            if touches:
+                border[0, row] += scale * edge[0, i]
+                border[1, row] += scale * edge[1, i]
+            for j in range(8):
+                column, other = base + j, scale
+                if e == 0 and j < 2:
+                    column, other = 0, scale * (dx if j == 0 else dy)
+                elif e == 0 and j < 4:
+                    column = j - 1
+                elif e == elements - 1 and j >= 4:
+                    if j < 6:
+                        continue
+                    column = base + j - 2
+                band[row, BAND + column - row] += other * k[i, j]
+    friction, slope = guide(c, q[0], v[0], pull)
+    r[0] += c[MASS] * a[0] + c[WEIGHT] + friction
+    if derive:
+        band[0, BAND] += c[MASS] / g + slope + bend
+    return 1
+
+
+@compiled(GAUGE)
+def gauge(c, x, w, q, v, z):  # type: ignore[no-untyped-def]
+    """The fibre's pull on the drive along the drive's axis, N (without the last node's own inertia)."""
+    elements = int(c[ELEMENTS])
+    e = elements - 1
+    length = c[int(c[LENGTHS]) + e]
+    node, lin = np.empty((3, 8)), np.empty((12, 4))
+    f, k = np.empty(8), np.empty((8, 8))
+    linear(c, length, 1.0, False, lin)
+    gather(c, x, w, q, v, q, e, elements, node)
+    node[2] = 0.0
+    element(c, length, 1.0, False, node[0], node[1], node[2], lin, f, k)
+    return f[4] * c[DTX] + f[5] * c[DTY]
