@@ -30,6 +30,8 @@ from mocks.wire.terminal import Terminal
 
 GAUGES = ("force_gauge", "dial_gauge")
 BAUDS = {"force_gauge": 230_400, "dial_gauge": 921_600}
+BYTES = ("raw", "arrival_time", "arrival_bytes")
+REGISTERS = ("registers", "request_time", "response_time")
 MARGIN = 0.05  # s of the recording before its first byte
 
 
@@ -137,9 +139,7 @@ def _opened(path: Path) -> h5py.File:
 
 def _stream(file: h5py.File, name: str, path: Path) -> dict[str, Any]:
     group = file.get(f"entry/instruments/{name}")
-    parts = (
-        ("raw", "arrival_time", "arrival_bytes") if name in GAUGES else ("registers", "request_time", "response_time")
-    )
+    parts = BYTES if name in GAUGES else REGISTERS
     if group is None or any(part not in group for part in parts):
         where = f"{path}: /entry/instruments/{name}"
         raise ReplayError(f"{where}: holds no {', '.join(parts)}. Only a run with its raw streams can be replayed")

@@ -48,7 +48,7 @@ class Control:
                 told = self._verbs[verb](arguments)
                 if verb not in ("time", "status"):
                     self.stand.event("control", command=text.strip())
-        except (ValueError, IndexError, TypeError) as error:
+        except (ValueError, IndexError, TypeError, KeyError) as error:
             return f"error: {text.strip()!r}: {error}; there are {' '.join(HELP.split())}"
         return f"ok {told}".strip()
 

@@ -74,6 +74,7 @@ class Gauge:
     rate: float = 2000.0
     batch: int = 4
     streaming: bool = True
+    host_time: Callable[[], float] = monotonic
     trouble: Trouble = field(default_factory=Trouble)
     counter: int = 0
     tick: int = 0
@@ -86,6 +87,12 @@ class Gauge:
     _way: list[Rows] = field(default_factory=list)
     _queued: int = 0
     _gone: int = 0
+
+    @property
+    def latency(self) -> float:
+        """From a sample to the last byte of its frame in the host's hands at the earliest, s."""
+        wire = self.head.frame_bytes * self.line.byte_time
+        return self.sensing.conversion + wire + self.adapter.jitter[0]
 
     def prepare(self, now: float) -> None:
         """Sample up to `now`, to which the plant has come; answer the host. Nothing leaves here."""
@@ -179,7 +186,7 @@ class Gauge:
     def _write(self, now: float) -> None:
         data = self.line.take(self.release if self.adapter.timer else now - self.delay)
         written = self.terminal.write(data) if data else 0
-        handed = monotonic()
+        handed = self.host_time()
         end = self._gone + written
         self._gone += len(data)
         self._settle(end, handed)

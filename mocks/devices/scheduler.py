@@ -11,7 +11,7 @@ from mocks.devices.gauge import Gauge
 from mocks.devices.world import World
 
 LONGEST = 2e-3
-LEAD = 0.4e-3  # what is due at a time was sampled longer before it than this
+LEAD = 0.35e-3  # s before bytes are due, at most, in which they are made
 BEHIND = 0.25
 FLUSH = 0.25
 _TIMER_SLACK = 29
@@ -40,6 +40,7 @@ class Scheduler(threading.Thread):
         self.world, self.gauges, self.flush = world, gauges, flush
         self.lock = threading.Lock()
         self.error: BaseException | None = None
+        self.lead = min(LEAD, *(0.9 * gauge.latency for gauge in gauges))
         self._ending = threading.Event()
 
     def run(self) -> None:
@@ -55,7 +56,7 @@ class Scheduler(threading.Thread):
         flushed = 0.0
         while not self._ending.is_set():
             wake = min(g.wake for g in self.gauges)
-            sleep_until(min(wake, time.monotonic() + LONGEST) - LEAD)
+            sleep_until(min(wake, time.monotonic() + LONGEST) - self.lead)
             with self.lock:
                 self.prepare(time.monotonic())
             sleep_until(wake)
@@ -71,7 +72,7 @@ class Scheduler(threading.Thread):
             self.look(self.world.now + BEHIND)
         self.world.advance(now)
         for gauge in self.gauges:
-            if gauge.wake <= now + 2.0 * LEAD:
+            if gauge.wake <= now + 2.0 * self.lead:
                 gauge.prepare(now)
 
     def look(self, now: float) -> None:

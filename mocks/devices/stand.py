@@ -170,7 +170,7 @@ class SimulatedStand:
         legs = drive_latency(host, self.servers.port, self.config.drive.unit_id, looks)
         self.registers.looks = None
         latency = {"drive": legs.fixed, "drive_request": legs.request, "drive_answer": legs.answer}
-        latency |= {name: self.latency(name) for name in self.gauges}
+        latency |= {name: gauge.latency for name, gauge in self.gauges.items()}
         return {
             "ready": True, "pid": os.getpid(),
             "drive": {
@@ -181,11 +181,6 @@ class SimulatedStand:
             "control": f"{host}:{self.control_port}",
             "ledger": str(self.ledger.folder) if self.ledger else None, "latency": latency,
         }  # fmt: skip
-
-    def latency(self, name: str) -> float:
-        """From a sample to the last byte of its frame in the host's hands at the earliest, s."""
-        gauge = self.gauges[name]
-        return gauge.sensing.conversion + gauge.head.frame_bytes * gauge.line.byte_time + gauge.adapter.jitter[0]
 
     def stop(self) -> None:
         """End all threads, close everything."""

@@ -85,7 +85,9 @@ class Amplifier:
     input_type: int = 0
 
     def reply(self, command: int, parameters: bytes) -> bytes:
-        """The answer to a command, which is carried out."""
+        """The answer to a command, which is carried out; 3Bh is answered with a measuring frame."""
+        if command == 0x3B:
+            return frames(np.array([self.value()]), np.array([False])).tobytes()
         handler = self._handlers().get(command)
         if handler is None:
             return answer(UNKNOWN)
@@ -110,7 +112,6 @@ class Amplifier:
             0x26: lambda p: struct.pack(">I", self.mode),
             0x27: self._set_mode,
             0x2B: lambda p: struct.pack(">H", self.firmware),
-            0x3B: lambda p: struct.pack(">f", self.value()),
             0x80: lambda p: bytes((self.transmission,)),
             0x81: self._set_transmission,
             0x8A: lambda p: struct.pack(">f", self.rate(None)),
@@ -134,8 +135,9 @@ class Amplifier:
         return b""
 
     def _set_transmission(self, parameters: bytes) -> bytes:
-        if parameters[-1] not in (0, 0x33):
-            raise ValueError("float32 frames only")
+        if len(parameters) not in (1, 3):
+            raise ValueError("one byte, or an index and two")
+        self.transmission = parameters[-1]
         return b""
 
     def _keep(self, name: str, parameters: bytes) -> bytes:

@@ -32,7 +32,7 @@ class Line:
         starts: Float = length * order + np.maximum(self.free, np.maximum.accumulate(ready - length * order))
         ends: Float = starts + length
         each: Float = self.byte_time * np.arange(1.0, size + 1)
-        self._append(frames.tobytes(), (starts[:, None] + each).ravel())
+        self._append(frames.tobytes(), np.add.outer(starts, each).ravel())
         self.free = float(ends[-1])
         return ends
 
@@ -42,7 +42,7 @@ class Line:
         self._append(data, start + self.byte_time * np.arange(1, len(data) + 1))
         self.free = start + self.byte_time * len(data)
 
-    def _append(self, data: bytes, times: Float) -> None:
+    def _append(self, data: bytes, times: NDArray[np.floating]) -> None:
         self.data += data
         self.times = np.concatenate([self.times, times])
 
