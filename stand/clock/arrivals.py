@@ -87,7 +87,7 @@ def bounds_of(reads: Reads, frame_period: float, byte_time: float, length: int) 
     """The bounds that the reads give; byte_time s on the line, length bytes in a frame."""
     ticks = find_ticks(reads.time, frame_period)
     cut = bool(np.mean(reads.partial > 0) > 0.02)
-    begun = (reads.partial > 0) & cut
+    begun = reads.partial > 0
     early = np.where(begun, reads.frames, reads.frames - 1).astype(np.float64)
     wait = np.where(begun, (length - reads.partial) * byte_time, 0.0)
     index = np.arange(len(reads.time))
