@@ -73,6 +73,9 @@ def add_process_options(parser: argparse.ArgumentParser) -> None:
 
 def run(stand: Runs, announce: Path | None, parent: int | None, failed: Callable[[], BaseException | None]) -> int:
     """Announce, then wait for a signal, the parent's end or a failure."""
+    from mocks.devices.priority import raise_priority
+
+    raise_priority()
     sys.setswitchinterval(5e-4)
     ending = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):

@@ -136,13 +136,8 @@ class RecordedGauge(threading.Thread):
         self.terminal, self.clock, self.answers = terminal, clock, answers
         self.data, self.arrival = raw.tobytes(), arrival
         self.ends = np.cumsum(size).astype(np.int64)
-        self.sent = 0
+        self.sent, self.held = 0, False
         self._ending = threading.Event()
-
-    @property
-    def held(self) -> bool:
-        """Whether a host has the port open."""
-        return self.terminal.watched()[0]
 
     def run(self) -> None:
         """Until everything is out or `end`."""
@@ -154,8 +149,8 @@ class RecordedGauge(threading.Thread):
             self._send(int(stop))
 
     def _answer(self) -> None:
-        held, asked = self.terminal.watched()
-        if held and asked:
+        self.held, asked = self.terminal.watched()
+        if self.held and asked:
             for reply in self.answers(self.terminal.read()):
                 self.terminal.write(reply)
 
