@@ -102,7 +102,17 @@ def check_recording(path: Path) -> list[Check]:
 def _complete(run: Recording) -> Check:
     if run.complete is None:
         return Check("closed", "note", "the file does not say")
+    if not run.complete and _outcome(run) == "recovered":
+        return Check("closed", "note", "cut off, recovered from its raw streams")
     return Check("closed", "ok", "in good order") if run.complete else Check("closed", "bad", "no: try --recover")
+
+
+def _outcome(run: Recording) -> str:
+    import h5py
+
+    assert run.path is not None
+    with h5py.File(run.path, "r") as file:
+        return str(file["entry/events"].attrs.get("outcome", ""))
 
 
 def _channel(run: Recording, name: str) -> Check:

@@ -42,7 +42,7 @@ def command(
         operator = Operator(rig, folder, title=title, mount=mock.mount if mock else lambda mass: None)
         _announce(number, access, shown=token_file is None)
         config = uvicorn.Config(
-            create_app(operator, access), log_level="warning", ws="websockets-sansio", lifespan="on"
+            create_app(operator, access), log_level="warning", ws="websockets-sansio", timeout_graceful_shutdown=2
         )
         uvicorn.Server(config).run(sockets=[bound])
 
