@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 from stand.errors import InputError
@@ -15,7 +16,8 @@ def up_and_down(excitation: Excitation, step: Callable[[float], Step]) -> Curve:
     down = Step(-down.height, down.times)
     half = 0.5 / excitation.frequency
     if up.duration > half * (1 + 1e-9):
-        remedy = f"At most {0.5 / up.duration:.4g} Hz with a flank of {up.duration * 1e3:.4g} ms"
+        largest = math.floor(500 / up.duration) / 1000
+        remedy = f"At most {largest:g} Hz with a flank of {up.duration * 1e3:.4g} ms"
         raise InputError(
             "a flank does not fit half a cycle", where="frequency", value=excitation.frequency, remedy=remedy
         )

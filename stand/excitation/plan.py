@@ -136,11 +136,12 @@ def _too_fast(
     amplitude = _largest(lambda f: fits(replace(excitation, amplitude=f * excitation.amplitude)))
     ways = [f"at most {_down(amplitude * excitation.amplitude * 1e3)} mm at {excitation.frequency:g} Hz"]
     if excitation.shape is Shape.TRAPEZOIDAL:
-        ramp = excitation.ramp / _largest(lambda f: fits(replace(excitation, ramp=excitation.ramp / f, frequency=1e-3)))
+        share = _largest(lambda f: fits(replace(excitation, ramp=excitation.ramp / f, frequency=1e-3)))
+        ramp = float(_up(excitation.ramp / share))
         if ramp <= 0.5 / excitation.frequency:
-            ways.insert(0, f"a ramp of at least {_up(ramp)} s at this stroke")
+            ways.insert(0, f"a ramp of at least {ramp:g} s at this stroke")
         else:
-            ways.insert(0, f"at most {_down(0.5 / ramp)} Hz at this stroke, with a ramp of {_up(ramp)} s")
+            ways.insert(0, f"at most {_down(0.5 / ramp)} Hz at this stroke, with a ramp of {ramp:g} s")
     else:
         frequency = _largest(lambda f: fits(replace(excitation, frequency=f * excitation.frequency)))
         ways.insert(0, f"at most {_down(frequency * excitation.frequency)} Hz at this stroke")

@@ -1,0 +1,145 @@
+"""Three instruments on clocks of their own land on one time base; what got lost is found, placed and marked."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from stand.block import Block
+from stand.clock import GaugeStream, LiveAligner, LiveBlock, align
+from stand.clock.lines import line_below, line_between
+from stand.clock.resample import fill, interpolate, smooth
+from stand.codecs.codec import Feeder, load_codec
+from stand.drive.profile import load_profile
+from stand.errors import InputError
+from stand.excitation.spec import Shape
+from stand.transport.raw import RawRegisters
+from stand.transport.ring import RingDecoder
+from tests.stand.alignment import judge, time_error
+from tests.stand.wires import Wires, draw
+
+
+@pytest.mark.parametrize(("seed", "shape"), [(0, Shape.RECTANGULAR), (1, Shape.TRAPEZOIDAL)])
+def test_bunched_arrivals_on_drifting_clocks_are_placed_within_the_promised_time(seed: int, shape: Shape) -> None:
+    outcome = judge(draw(seed, shape, wrong_by_sigma=1.0))
+    assert outcome.force_gauge < 100e-6
+    assert outcome.dial_gauge < 100e-6
+    assert outcome.drive < 20e-6
+    assert outcome.x_rms < 5e-6
+    assert outcome.x_rms < 2 * outcome.x_stated
+    assert outcome.missing == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("shape", [Shape.TRAPEZOIDAL, Shape.RECTANGULAR, Shape.QUASI_SINUSOIDAL])
+@pytest.mark.parametrize("timer", [0.016, None])
+def test_the_worst_of_fifty_seeds_keeps_the_promise(shape: Shape, timer: float | None) -> None:
+    for seed in range(50):
+        outcome = judge(draw(seed, shape, timer=timer, wrong_by_sigma=1.0 if seed % 2 else -1.0))
+        assert max(outcome.force_gauge, outcome.dial_gauge) < 100e-6, seed
+        assert outcome.drive < 20e-6, seed
+        assert outcome.x_rms < 5e-6, seed
+
+
+@pytest.mark.parametrize("timer", [0.016, None])
+def test_lost_frames_are_counted_placed_within_fifty_milliseconds_and_marked(timer: float | None) -> None:
+    lost = {"force_gauge": ((9000, 1),), "dial_gauge": ((5000, 3),)}
+    wires = draw(2, timer=timer, lost=lost)
+    aligned = align(wires.streams, wires.stand, wires.origin, wires.count)
+    found = {loss.instrument: loss for loss in aligned.losses}
+    assert {name: loss.count for name, loss in found.items()} == {"force_gauge": 1, "dial_gauge": 3}
+    for name, ((first, _),) in lost.items():
+        assert found[name].time == pytest.approx(wires.epochs[name] + first * wires.periods[name], abs=0.05)
+        assert time_error(wires, aligned, name) < 100e-6
+    marked = np.flatnonzero(aligned.quality & 4)
+    assert 1 <= len(marked) <= 3
+    assert np.all(np.abs(aligned.origin + marked / 2000 - found["force_gauge"].time) < 0.002)
+
+
+def test_the_same_bytes_and_times_give_the_same_grid_bit_for_bit() -> None:
+    wires = draw(3)
+    first, second = (align(wires.streams, wires.stand, wires.origin, wires.count) for _ in range(2))
+    for name, values in first.channels.items():
+        np.testing.assert_array_equal(values, second.channels[name])
+
+
+def test_a_stream_too_short_for_a_clock_is_refused() -> None:
+    wires = draw(1)
+    short = {"force_gauge": GaugeStream(np.empty(0, np.uint8), np.empty(0), np.empty(0, np.int64))}
+    with pytest.raises(InputError, match=r"force_gauge.*too short"):
+        align(short, wires.stand, wires.origin, wires.count)
+
+
+def _blocks(wires: Wires) -> list[Block]:
+    """What readers would have handed on, in order of arrival."""
+    blocks: list[Block] = []
+    for name in ("force_gauge", "dial_gauge"):
+        stream = wires.streams[name]
+        assert isinstance(stream, GaugeStream)
+        feeder = Feeder(load_codec(wires.stand.instruments[name].codec), name)  # type: ignore[union-attr]
+        edges = np.concatenate(([0], np.cumsum(stream.arrival_bytes)))
+        for k, arrival in enumerate(stream.arrival_time.tolist()):
+            blocks.append(feeder.feed(stream.raw[edges[k] : edges[k + 1]].tobytes(), arrival))
+    ring, decoder = wires.streams["drive"], RingDecoder(load_profile(wires.stand.drive.profile))
+    assert not isinstance(ring, GaugeStream)
+    for registers, request, response in zip(ring.registers, ring.request_time, ring.response_time, strict=True):
+        block = decoder.decode(RawRegisters("drive", registers, float(request), float(response)))
+        if block is not None:
+            blocks.append(block)
+    return sorted(blocks, key=lambda b: b.arrival)
+
+
+def test_the_live_grid_has_every_sample_once_and_agrees_with_the_file_to_a_millisecond() -> None:
+    wires = draw(4)
+    live = LiveAligner(wires.stand, wires.origin)
+    parts: list[LiveBlock] = [b for b in map(live.push, _blocks(wires)) if b is not None]
+    index = np.concatenate([np.arange(p.first, p.first + len(p.time)) for p in parts])
+    np.testing.assert_array_equal(index, np.arange(len(index)))
+    assert len(index) >= wires.count - 100
+    n = min(len(index), wires.count)
+    x = np.concatenate([p.x for p in parts])[:n]
+    speed = np.gradient(wires.truth["drive"][:n], 5e-4)
+    true = wires.truth["drive"][:n] - wires.truth["drive"][0]
+    assert np.all(np.abs(x - true) < 1e-3 * np.abs(speed).max() + 5e-6)
+
+
+def test_the_line_below_points_ignores_how_late_the_late_ones_are() -> None:
+    rng = np.random.default_rng(0)
+    k = np.arange(2000.0)
+    late = rng.exponential(2e-3, 2000)
+    line = line_below(k, 5.0 + 5e-4 * k + late, 5e-4)
+    assert line.at(0.0) == pytest.approx(5.0, abs=2e-5)
+    assert line.slope == pytest.approx(5e-4, rel=1e-4)
+
+
+def test_the_line_between_points_keeps_away_from_both_and_says_when_none_fits() -> None:
+    k = np.arange(100.0)
+    line = line_between(k, 2.0 * k - 1, k, 2.0 * k + 3, 2.0)
+    assert line.margin == pytest.approx(2.0)
+    assert line.at(50.0) == pytest.approx(101.0)
+    assert line_between(k, 2.0 * k + 1, k, 2.0 * k, 2.0).margin == pytest.approx(-0.5)
+
+
+def test_interpolation_adds_no_bias_below_three_quarters_of_nyquist() -> None:
+    n = np.arange(2000)
+    for share in (0.05, 0.3, 0.6):
+        wave = np.sin(np.pi * share * n + 1)
+        place = np.linspace(50, 1950, 777)
+        np.testing.assert_allclose(interpolate(wave, place), np.sin(np.pi * share * place + 1), atol=2e-3)
+
+
+def test_a_gap_is_bridged_smoothly_and_known_as_such() -> None:
+    index = np.array([0, 1, 2, 6, 7, 8])
+    even, there = fill(index, index.astype(float) ** 2, np.ones(6, dtype=np.bool_))
+    np.testing.assert_allclose(even, np.arange(9.0) ** 2, atol=1.0)
+    assert there.tolist() == [True, True, True, False, False, False, True, True, True]
+
+
+def test_smoothing_lowers_the_noise_states_what_is_left_and_keeps_the_motion() -> None:
+    rng = np.random.default_rng(5)
+    t = np.arange(8000) / 1000
+    true = 0.01 * np.sin(2 * np.pi * 2 * t)
+    smoothed, sigma = smooth(true + rng.normal(0, 1e-6, len(t)), 1e-3)
+    error = (smoothed - true)[200:-200].std()
+    assert error < 0.6e-6
+    assert sigma == pytest.approx(error, rel=0.3)
