@@ -27,6 +27,7 @@ CLOCK_UNITS = {
     "sigma": "s",
     "latency": "s",
 }
+RECOVERED = "recovered"
 PACK: Mapping[str, Any] = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
 
 
@@ -157,6 +158,7 @@ def _end(new: h5py.File, aligned: Aligned, outcome: str, why: str, complete: boo
     times = events["host_time"][()] - aligned.origin
     events.create_dataset("time", data=times).attrs["units"] = "s"
     events.attrs.update({"outcome": str(outcome), "why": why, "complete": complete})
+    events.attrs["recovered"] = outcome == RECOVERED
 
 
 def _add_gaps(events: h5py.Group, gaps: list[tuple[float, str]]) -> None:

@@ -14,7 +14,7 @@ from stand.clock.model import RingStream
 from stand.config import Stand, load_stand_text
 from stand.errors import InputError
 from stand.recorder.arrivals import Stream, read_streams
-from stand.recorder.finish import finish_file
+from stand.recorder.finish import RECOVERED, finish_file
 from stand.recorder.layout import GRID_RATE
 
 SHORTEST = 0.5
@@ -42,7 +42,7 @@ def recover(path: Path | str) -> Recovered:
     note = _guardian_note(path)
     why = "recovered after the acquisition ended without closing the file" + (f"; {note}" if note else "")
     count = int((end - origin) * GRID_RATE)
-    aligned = finish_file(path, stand, origin=origin, count=count, outcome="recovered", why=why, complete=False)
+    aligned = finish_file(path, stand, origin=origin, count=count, outcome=RECOVERED, why=why, complete=False)
     with contextlib.suppress(FileNotFoundError):
         path.with_name(f".{path.name}.closing").unlink()
     return Recovered(path, before, len(aligned.time) / GRID_RATE, note)

@@ -8,6 +8,8 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
+import numpy.ma  # noqa: F401  numpy loads it at the first median, which would hold up every reader for 70 ms
+
 from stand.block import Block
 from stand.clock import LiveAligner, LiveBlock
 from stand.config import Stand
