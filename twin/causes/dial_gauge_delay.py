@@ -20,9 +20,7 @@ dial_gauge_delay = Cause(
     name="dial-gauge-delay",
     title="the dial gauge is late",
     acts_on="dial-gauge",
-    parameters=(
-        Parameter("delay", "s", 0.0, (-0.02, 0.1), 0.002, "of the signal"),
-    ),
+    parameters=(Parameter("delay", "s", 0.0, (-0.02, 0.1), 0.002, "of the signal"),),
     source=Source("assumed"),
     how="sensor",
     senses=_late,

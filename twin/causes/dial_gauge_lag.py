@@ -34,9 +34,7 @@ dial_gauge_lag = Cause(
     name="dial-gauge-lag",
     title="the dial gauge lags",
     acts_on="dial-gauge",
-    parameters=(
-        Parameter("time_constant", "s", 0.0, (0.0, 0.2), 0.003, "of a first-order lag"),
-    ),
+    parameters=(Parameter("time_constant", "s", 0.0, (0.0, 0.2), 0.003, "of a first-order lag"),),
     source=Source("assumed"),
     how="sensor",
     senses=_lag,

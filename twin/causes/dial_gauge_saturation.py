@@ -23,9 +23,7 @@ dial_gauge_saturation = Cause(
     name="dial-gauge-saturation",
     title="the dial gauge saturates",
     acts_on="dial-gauge",
-    parameters=(
-        Parameter("level", "m", 1000.0, (0.0, 1000.0), 0.01, "that it cannot pass"),
-    ),
+    parameters=(Parameter("level", "m", 1000.0, (0.0, 1000.0), 0.01, "that it cannot pass"),),
     source=Source("assumed"),
     how="sensor",
     senses=_clip,

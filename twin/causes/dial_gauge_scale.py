@@ -20,13 +20,14 @@ dial_gauge_scale = Cause(
     name="dial-gauge-scale",
     title="the dial gauge's gain is off",
     acts_on="dial-gauge",
-    parameters=(
-        Parameter("gain", "-", 1.0, (0.3, 3.0), 0.02, "recorded over true"),
-    ),
+    parameters=(Parameter("gain", "-", 1.0, (0.3, 3.0), 0.02, "recorded over true"),),
     source=Source("assumed"),
     how="sensor",
     senses=_gain,
     order=5,
     undo=_undo,
-    rivals=("pulley-eccentricity", "drive-scale",),
+    rivals=(
+        "pulley-eccentricity",
+        "drive-scale",
+    ),
 )

@@ -16,9 +16,7 @@ dial_gauge_spring = Cause(
     name="dial-gauge-spring",
     title="the gauge's plunger spring loads the weight",
     acts_on="weight",
-    parameters=(
-        Parameter("stiffness", "N/m", 0.0, (0.0, 2000.0), 20.0, "of the spring"),
-    ),
+    parameters=(Parameter("stiffness", "N/m", 0.0, (0.0, 2000.0), 20.0, "of the spring"),),
     source=Source("assumed"),
     after=_spring,
     rivals=("force-gauge-scale", "incline-angle"),

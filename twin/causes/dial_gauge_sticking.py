@@ -24,9 +24,7 @@ dial_gauge_sticking = Cause(
     name="dial-gauge-sticking",
     title="the dial gauge sticks",
     acts_on="dial-gauge",
-    parameters=(
-        Parameter("width", "m", 0.0, (0.0, 0.02), 0.0002, "the whole dead band"),
-    ),
+    parameters=(Parameter("width", "m", 0.0, (0.0, 0.02), 0.0002, "the whole dead band"),),
     source=Source("assumed"),
     how="sensor",
     senses=_stick,

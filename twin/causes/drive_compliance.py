@@ -21,9 +21,7 @@ drive_compliance = Cause(
     name="drive-compliance",
     title="the drive gives way under load",
     acts_on="drive",
-    parameters=(
-        Parameter("compliance", "m/N", 0.0, (0.0, 0.0001), 1e-06, "of drive and mount"),
-    ),
+    parameters=(Parameter("compliance", "m/N", 0.0, (0.0, 0.0001), 1e-06, "of drive and mount"),),
     source=Source("assumed"),
     before=_softer,
     order=5,

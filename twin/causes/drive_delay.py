@@ -31,9 +31,7 @@ drive_delay = Cause(
     name="drive-delay",
     title="the drive is where it was recorded to be, later",
     acts_on="drive",
-    parameters=(
-        Parameter("delay", "s", 0.0, (-0.05, 0.1), 0.002, "of the motion against the record"),
-    ),
+    parameters=(Parameter("delay", "s", 0.0, (-0.05, 0.1), 0.002, "of the motion against the record"),),
     source=Source("assumed"),
     how="input",
     moves=_late,

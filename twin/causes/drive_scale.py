@@ -17,9 +17,7 @@ drive_scale = Cause(
     name="drive-scale",
     title="the drive's position gain is off",
     acts_on="drive",
-    parameters=(
-        Parameter("gain", "-", 1.0, (0.5, 2.0), 0.02, "true over recorded"),
-    ),
+    parameters=(Parameter("gain", "-", 1.0, (0.5, 2.0), 0.02, "true over recorded"),),
     source=Source("assumed"),
     how="input",
     moves=_gain,

@@ -32,9 +32,7 @@ end_stop = Cause(
     name="end-stop",
     title="the weight meets a stop",
     acts_on="guide",
-    parameters=(
-        Parameter("position", "m", 1.0, (-1.0, 1.0), 0.01, "where the weight meets it"),
-    ),
+    parameters=(Parameter("position", "m", 1.0, (-1.0, 1.0), 0.01, "where the weight meets it"),),
     source=Source("assumed"),
     after=_contact,
     scan=_scan,

@@ -10,11 +10,9 @@ fibre_damping = Cause(
     name="fibre-damping",
     title="fibre damped more or less than stated",
     acts_on="fibre",
-    parameters=(
-        Parameter("difference", "N*s/m", 0.0, (-25.0, 400.0), 5.0, "against the setup"),
-    ),
+    parameters=(Parameter("difference", "N*s/m", 0.0, (-25.0, 400.0), 5.0, "against the setup"),),
     source=Source("assumed"),
     how="base",
     base="fibre_damping",
-    rivals=('velocity-dependent-damping', 'fibre-viscoelasticity'),
+    rivals=("velocity-dependent-damping", "fibre-viscoelasticity"),
 )

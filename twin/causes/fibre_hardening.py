@@ -36,9 +36,7 @@ fibre_hardening = Cause(
     name="fibre-hardening",
     title="a fibre that stiffens as it stretches",
     acts_on="fibre",
-    parameters=(
-        Parameter("coefficient", "1/m", 0.0, (-200.0, 5000.0), 50.0, "T = c d (1 + coefficient d)"),
-    ),
+    parameters=(Parameter("coefficient", "1/m", 0.0, (-200.0, 5000.0), 50.0, "T = c d (1 + coefficient d)"),),
     source=Source("assumed"),
     before=_hardening,
     pack=strands,

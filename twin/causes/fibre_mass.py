@@ -32,9 +32,7 @@ fibre_mass = Cause(
     name="fibre-mass",
     title="the fibre's own mass matters",
     acts_on="fibre",
-    parameters=(
-        Parameter("mass", "kg", 0.0, (0.0, 2.0), 0.03, "whole fibre's"),
-    ),
+    parameters=(Parameter("mass", "kg", 0.0, (0.0, 2.0), 0.03, "whole fibre's"),),
     source=Source("assumed"),
     after=_inertia,
     senses=_gauge,

@@ -45,9 +45,7 @@ fibre_pulley_slip = Cause(
     name="fibre-pulley-slip",
     title="the fibre slides on the pulley",
     acts_on="pulley",
-    parameters=(
-        Parameter("friction", "-", 5.0, (0.01, 5.0), 0.05, "at which it slides"),
-    ),
+    parameters=(Parameter("friction", "-", 5.0, (0.01, 5.0), 0.05, "at which it slides"),),
     source=Source("Euler", 1769, "capstan equation"),
     before=_slide,
     states=1,

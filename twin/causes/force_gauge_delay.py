@@ -20,9 +20,7 @@ force_gauge_delay = Cause(
     name="force-gauge-delay",
     title="the force gauge is late",
     acts_on="force-gauge",
-    parameters=(
-        Parameter("delay", "s", 0.0, (-0.02, 0.1), 0.002, "of the signal"),
-    ),
+    parameters=(Parameter("delay", "s", 0.0, (-0.02, 0.1), 0.002, "of the signal"),),
     source=Source("assumed"),
     how="sensor",
     senses=_late,

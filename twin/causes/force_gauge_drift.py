@@ -20,9 +20,7 @@ force_gauge_drift = Cause(
     name="force-gauge-drift",
     title="the force gauge drifts",
     acts_on="force-gauge",
-    parameters=(
-        Parameter("rate", "N/s", 0.0, (-50.0, 50.0), 0.1, "of the drift"),
-    ),
+    parameters=(Parameter("rate", "N/s", 0.0, (-50.0, 50.0), 0.1, "of the drift"),),
     source=Source("assumed"),
     how="sensor",
     senses=_add,

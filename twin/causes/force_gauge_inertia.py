@@ -20,9 +20,7 @@ force_gauge_inertia = Cause(
     name="force-gauge-inertia",
     title="mass between the force gauge and the fibre",
     acts_on="force-gauge",
-    parameters=(
-        Parameter("mass", "kg", 0.0, (0.0, 20.0), 0.1, "that moves with the drive"),
-    ),
+    parameters=(Parameter("mass", "kg", 0.0, (0.0, 20.0), 0.1, "that moves with the drive"),),
     source=Source("assumed"),
     how="sensor",
     senses=_add,

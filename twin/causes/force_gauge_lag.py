@@ -34,9 +34,7 @@ force_gauge_lag = Cause(
     name="force-gauge-lag",
     title="the force gauge lags",
     acts_on="force-gauge",
-    parameters=(
-        Parameter("time_constant", "s", 0.0, (0.0, 0.2), 0.003, "of a first-order lag"),
-    ),
+    parameters=(Parameter("time_constant", "s", 0.0, (0.0, 0.2), 0.003, "of a first-order lag"),),
     source=Source("assumed"),
     how="sensor",
     senses=_lag,

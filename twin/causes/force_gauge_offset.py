@@ -20,9 +20,7 @@ force_gauge_offset = Cause(
     name="force-gauge-offset",
     title="the force gauge's zero is off",
     acts_on="force-gauge",
-    parameters=(
-        Parameter("offset", "N", 0.0, (-200.0, 200.0), 1.0, "told at no force"),
-    ),
+    parameters=(Parameter("offset", "N", 0.0, (-200.0, 200.0), 1.0, "told at no force"),),
     source=Source("assumed"),
     how="sensor",
     senses=_add,

@@ -23,9 +23,7 @@ force_gauge_saturation = Cause(
     name="force-gauge-saturation",
     title="the force gauge saturates",
     acts_on="force-gauge",
-    parameters=(
-        Parameter("level", "N", 1000000000.0, (0.0, 1000000000.0), 50.0, "that it cannot pass"),
-    ),
+    parameters=(Parameter("level", "N", 1000000000.0, (0.0, 1000000000.0), 50.0, "that it cannot pass"),),
     source=Source("assumed"),
     how="sensor",
     senses=_clip,

@@ -20,13 +20,14 @@ force_gauge_scale = Cause(
     name="force-gauge-scale",
     title="the force gauge's gain is off",
     acts_on="force-gauge",
-    parameters=(
-        Parameter("gain", "-", 1.0, (0.3, 3.0), 0.02, "recorded over true"),
-    ),
+    parameters=(Parameter("gain", "-", 1.0, (0.3, 3.0), 0.02, "recorded over true"),),
     source=Source("assumed"),
     how="sensor",
     senses=_gain,
     order=5,
     undo=_undo,
-    rivals=("pulley-inertia", "weight-mass",),
+    rivals=(
+        "pulley-inertia",
+        "weight-mass",
+    ),
 )

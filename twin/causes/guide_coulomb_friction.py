@@ -10,11 +10,9 @@ guide_coulomb_friction = Cause(
     name="guide-coulomb-friction",
     title="dry friction in the guide other than stated",
     acts_on="guide",
-    parameters=(
-        Parameter("difference", "N", 0.0, (-10.0, 60.0), 1.0, "against the setup"),
-    ),
+    parameters=(Parameter("difference", "N", 0.0, (-10.0, 60.0), 1.0, "against the setup"),),
     source=Source("assumed"),
     how="base",
     base="guide_friction",
-    rivals=('guide-stribeck-friction', 'pulley-bearing-friction'),
+    rivals=("guide-stribeck-friction", "pulley-bearing-friction"),
 )

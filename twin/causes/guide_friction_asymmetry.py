@@ -16,9 +16,7 @@ guide_friction_asymmetry = Cause(
     name="guide-friction-asymmetry",
     title="dry friction up unlike down",
     acts_on="guide",
-    parameters=(
-        Parameter("difference", "N", 0.0, (-60.0, 60.0), 1.5, "up minus down"),
-    ),
+    parameters=(Parameter("difference", "N", 0.0, (-60.0, 60.0), 1.5, "up minus down"),),
     source=Source("assumed"),
     after=_friction,
     rivals=("incline-angle", "weight-mass", "force-gauge-offset"),

@@ -16,9 +16,7 @@ guide_quadratic_drag = Cause(
     name="guide-quadratic-drag",
     title="quadratic drag in the guide",
     acts_on="guide",
-    parameters=(
-        Parameter("coefficient", "N*s^2/m^2", 0.0, (0.0, 1000.0), 6.0, "force per speed squared"),
-    ),
+    parameters=(Parameter("coefficient", "N*s^2/m^2", 0.0, (0.0, 1000.0), 6.0, "force per speed squared"),),
     source=Source("assumed"),
     after=_drag,
     rivals=("guide-viscous-drag", "velocity-dependent-damping"),

@@ -16,9 +16,7 @@ guide_viscous_drag = Cause(
     name="guide-viscous-drag",
     title="viscous drag in the guide",
     acts_on="guide",
-    parameters=(
-        Parameter("coefficient", "N*s/m", 0.0, (0.0, 1000.0), 4.0, "force per speed"),
-    ),
+    parameters=(Parameter("coefficient", "N*s/m", 0.0, (0.0, 1000.0), 4.0, "force per speed"),),
     source=Source("assumed"),
     after=_drag,
     rivals=("guide-quadratic-drag", "guide-stribeck-friction", "velocity-dependent-damping"),

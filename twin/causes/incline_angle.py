@@ -10,11 +10,9 @@ incline_angle = Cause(
     name="incline-angle",
     title="incline other than stated",
     acts_on="weight",
-    parameters=(
-        Parameter("difference", "deg", 0.0, (-20.0, 40.0), 1.0, "against the setup"),
-    ),
+    parameters=(Parameter("difference", "deg", 0.0, (-20.0, 40.0), 1.0, "against the setup"),),
     source=Source("assumed"),
     how="base",
     base="incline_angle",
-    rivals=('weight-mass', 'guide-friction-asymmetry', 'force-gauge-offset'),
+    rivals=("weight-mass", "guide-friction-asymmetry", "force-gauge-offset"),
 )

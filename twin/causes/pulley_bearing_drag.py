@@ -16,9 +16,7 @@ pulley_bearing_drag = Cause(
     name="pulley-bearing-drag",
     title="viscous drag in the pulley's bearing",
     acts_on="pulley",
-    parameters=(
-        Parameter("coefficient", "N*s/m", 0.0, (0.0, 500.0), 3.0, "rim force per rim speed"),
-    ),
+    parameters=(Parameter("coefficient", "N*s/m", 0.0, (0.0, 500.0), 3.0, "rim force per rim speed"),),
     source=Source("assumed"),
     after=_drag,
     rivals=("guide-viscous-drag", "pulley-bearing-friction"),

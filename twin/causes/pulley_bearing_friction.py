@@ -28,9 +28,7 @@ pulley_bearing_friction = Cause(
     name="pulley-bearing-friction",
     title="friction in the pulley's bearing",
     acts_on="pulley",
-    parameters=(
-        Parameter("coefficient", "-", 0.0, (0.0, 0.8), 0.02, "rim force over T1 + T2"),
-    ),
+    parameters=(Parameter("coefficient", "-", 0.0, (0.0, 0.8), 0.02, "rim force over T1 + T2"),),
     source=Source("Dahl", 1968, "with exponent 1"),
     after=_friction,
     states=1,

@@ -10,11 +10,9 @@ weight_mass = Cause(
     name="weight-mass",
     title="weight other than stated",
     acts_on="weight",
-    parameters=(
-        Parameter("difference", "kg", 0.0, (-2.0, 5.0), 0.1, "against the setup"),
-    ),
+    parameters=(Parameter("difference", "kg", 0.0, (-2.0, 5.0), 0.1, "against the setup"),),
     source=Source("assumed"),
     how="base",
     base="weight_mass",
-    rivals=('incline-angle', 'force-gauge-scale'),
+    rivals=("incline-angle", "force-gauge-scale"),
 )

@@ -41,7 +41,14 @@ def base(setups: Sequence[Setup], freed: frozenset[str] = frozenset()) -> tuple[
     """The base values that calibration may move, those in `freed` without prior or bound."""
     setup = setups[0]
     names = {
-        System.WFPD: ("weight_mass", "incline_angle", "fibre_stiffness", "fibre_damping", "pulley_inertia", "guide_friction"),
+        System.WFPD: (
+            "weight_mass",
+            "incline_angle",
+            "fibre_stiffness",
+            "fibre_damping",
+            "pulley_inertia",
+            "guide_friction",
+        ),
         System.WF: ("weight_mass", "incline_angle", "fibre_stiffness", "fibre_damping", "guide_friction"),
         System.LINEAR_DRIVE: ("moving_mass",),
     }[setup.system]

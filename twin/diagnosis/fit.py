@@ -40,6 +40,7 @@ class Linear:
     starts: Float
     residual: Float
     prior: Float
+    root: Float
 
 
 def residual(problem: Problem, model: Composition, z: Float, starts: Float) -> Float:
@@ -75,8 +76,10 @@ def prior_cost(model: Composition, z: Float, starts: Float) -> float:
     return float(np.sum((z / sigma) ** 2) + np.sum(starts**2))
 
 
-def linearise(problem: Problem, fitted: Fitted, spread: Float, free: NDArray[np.bool_]) -> Linear:
-    """Forward differences in every free coordinate and in the starts."""
+def linearise(
+    problem: Problem, fitted: Fitted, spread: Float, free: NDArray[np.bool_], known: Linear | None = None
+) -> Linear:
+    """Forward differences in every free coordinate and in the starts; base columns from `known` where given."""
     model, z, starts = fitted.model, fitted.z, fitted.starts
     root = np.sqrt(weigh(fitted.residual, spread)) / spread * problem.windows.use
     here = problem.predict(model, z, starts)
@@ -91,10 +94,14 @@ def linearise(problem: Problem, fitted: Fitted, spread: Float, free: NDArray[np.
         moved = starts.copy()
         moved[:, axis] += START_STEP
         parts.append(column(problem.predict(model, z, moved), START_STEP))
-    columns = _globals(problem, fitted, free, column)
+    renew = free if known is None else free & np.array([c.owner not in ("base", "run") for c in model.coordinates])
+    columns = _globals(problem, fitted, renew, column)
+    if known is not None:
+        kept = free & ~renew
+        columns[kept] = known.columns[kept] * np.nan_to_num(root.reshape(flat) / known.root)
     weighted = (fitted.residual * root).reshape(flat)
     prior = np.array([1.0 / c.prior**2 for c in model.coordinates])
-    return Linear(columns, np.array(parts), weighted, prior)
+    return Linear(columns, np.array(parts), weighted, prior, np.maximum(root.reshape(flat), 1e-30))
 
 
 def _globals(problem: Problem, fitted: Fitted, free: NDArray[np.bool_], column) -> Float:  # type: ignore[no-untyped-def]
@@ -187,11 +194,13 @@ def fit(
     free = np.ones(len(z), bool) if fixed is None else ~fixed
     left = residual(problem, model, z, starts)
     fitted = Fitted(model, z, starts, left, 0.0)
-    damping, reduced = 1e-3, None
-    for _ in range(iterations):
+    damping, reduced, linear = 1e-3, None, None
+    for turn in range(iterations):
         spread = scale(problem, fitted.residual)
         cost = loss(fitted.residual, spread) + prior_cost(model, fitted.z, fitted.starts)
-        reduced = reduce(linearise(problem, fitted, spread, free), fitted.starts, fitted.z)
+        known = linear if turn % 2 and model.causes else None
+        linear = linearise(problem, fitted, spread, free, known)
+        reduced = reduce(linear, fitted.starts, fitted.z)
         better = None
         for _ in range(4):
             step = np.clip(solve(reduced, fitted.z, low, high, free, damping), -reach, reach)
@@ -208,6 +217,6 @@ def fit(
             break
         gained = (cost - better.cost) / max(cost, 1e-9)
         fitted = better
-        if gained < tolerance:
+        if gained < tolerance and (known is None or gained < 0.1 * tolerance):
             break
     return replace(fitted, information=None if reduced is None else reduced.matrix)

@@ -36,9 +36,7 @@ class Problem:
         self.dt = self.runs[0].dt
         lengths = [len(r.raw_u) for r in self.runs]
         self.offset = np.concatenate([[0], np.cumsum(lengths)[:-1]]).astype(np.int64)
-        self.drive = np.ascontiguousarray(
-            np.concatenate([np.column_stack([r.x.value, r.x.rate]) for r in self.runs])
-        )
+        self.drive = np.ascontiguousarray(np.concatenate([np.column_stack([r.x.value, r.x.rate]) for r in self.runs]))
         self.smooth = np.ascontiguousarray(
             np.concatenate([np.column_stack([r.u.value, r.u.rate, r.F.value, r.F.rate]) for r in self.runs])
         )
@@ -111,9 +109,7 @@ class Problem:
         driven: Float = self._cache[key]
         return driven
 
-    def _own(
-        self, model: Composition, z: Float, constants: Float, drive: Float, before: Hooks, after: Hooks
-    ) -> Float:
+    def _own(self, model: Composition, z: Float, constants: Float, drive: Float, before: Hooks, after: Hooks) -> Float:
         """The causes' own states at the starts, from their history along the measured motion."""
         own = np.zeros((len(self.windows), k.STATES))
         if not model.own_states or self.system is System.LINEAR_DRIVE:
@@ -128,9 +124,7 @@ class Problem:
         cached: Float = self._cache[key]
         return cached
 
-    def _history(
-        self, r: int, own: Float, constants: Float, drive: Float, before: Hooks, after: Hooks
-    ) -> None:
+    def _history(self, r: int, own: Float, constants: Float, drive: Float, before: Hooks, after: Hooks) -> None:
         run, mine = self.runs[r], self.windows.run == r
         if not mine.any():
             return

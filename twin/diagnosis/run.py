@@ -68,9 +68,20 @@ def prepare(recording: Recording) -> Run:
     noises = [noise(c) for c in (raw_x, raw_u, raw_F)]
     sigma_x = max(noises[0], 0.0)
     return Run(
-        recording.name, setup, dt, raw_x, raw_u, raw_F,
-        smooth(raw_x, dt, max(sigma_x, 1e-7)), smooth(raw_u, dt, max(noises[1], 1e-7)), smooth(raw_F, dt, max(noises[2], 1e-3)),
-        sigma_x, max(noises[1], 1e-7), max(noises[2], 1e-3), float(np.mean(raw_F[:rest])), _bad(recording, n),
+        recording.name,
+        setup,
+        dt,
+        raw_x,
+        raw_u,
+        raw_F,
+        smooth(raw_x, dt, max(sigma_x, 1e-7)),
+        smooth(raw_u, dt, max(noises[1], 1e-7)),
+        smooth(raw_F, dt, max(noises[2], 1e-3)),
+        sigma_x,
+        max(noises[1], 1e-7),
+        max(noises[2], 1e-3),
+        float(np.mean(raw_F[:rest])),
+        _bad(recording, n),
     )
 
 

@@ -64,7 +64,9 @@ def _best(spectrum: Float, omega: Float, dt: float, sigma: float, n: int) -> flo
     return float(cutoffs[int(np.argmin(risks))])
 
 
-def polynomial(values: Float, places: NDArray[np.int64], half: int, degree: int, dt: float) -> tuple[Float, Float, Float]:
+def polynomial(
+    values: Float, places: NDArray[np.int64], half: int, degree: int, dt: float
+) -> tuple[Float, Float, Float]:
     """Local least-squares polynomials: value, rate [k] at `places`, and the rms of what each leaves."""
     local = np.arange(-half, half + 1) * dt
     basis = np.vander(local / (half * dt), degree + 1, increasing=True)

@@ -126,9 +126,7 @@ def _step(y, q, c, row, start, theta, h, dt, before, bp, after, ap, taut1, taut2
         for i in range(n):
             out[i] = y[i] + fraction * h * work[stage - 1, i]
         hermite(row, theta + fraction * h / dt, dt, drive)
-        rates(
-            out, q, c, start + fraction * h, drive[0], drive[1], before, bp, after, ap, taut1, taut2
-        )
+        rates(out, q, c, start + fraction * h, drive[0], drive[1], before, bp, after, ap, taut1, taut2)
         _derivative(q, c, work[stage])
     for i in range(n):
         out[i] = y[i] + h / 6.0 * (work[0, i] + 2.0 * work[1, i] + 2.0 * work[2, i] + work[3, i])
@@ -161,9 +159,7 @@ def _at(y, q, c, row, start, theta, dt, before, bp, after, ap, work, mode):  # t
     rates(y, q, c, start + theta * dt, work[5][0], work[5][1], before, bp, after, ap, mode[0], mode[1])
 
 
-@njit(
-    f"float64({_V},{_V},{_V},{_V},float64,float64,float64,float64,{_HOOKS},{_M},{_V},{_A})", cache=True, nogil=True
-)
+@njit(f"float64({_V},{_V},{_V},{_V},float64,float64,float64,float64,{_HOOKS},{_M},{_V},{_A})", cache=True, nogil=True)
 def _located(y, q, c, row, start, done, theta, dt, before, bp, after, ap, work, out, mode):  # type: ignore[no-untyped-def]
     """The step shortened to the first switch of a strand, and the mode after it."""
     low, high = 0.0, theta
@@ -199,9 +195,7 @@ def _located(y, q, c, row, start, done, theta, dt, before, bp, after, ap, work, 
     return high
 
 
-@njit(
-    f"int64({_V},{_V},{_V},{_V},float64,float64,{_HOOKS},{_M},{_V},{_A})", cache=True, nogil=True
-)
+@njit(f"int64({_V},{_V},{_V},{_V},float64,float64,{_HOOKS},{_M},{_V},{_A})", cache=True, nogil=True)
 def advance(y, q, c, row, start, dt, before, bp, after, ap, work, out, mode):  # type: ignore[no-untyped-def]
     """Carry y (to which q belongs) over one sample interval; mode[0:2] are the strands' taut flags. 0, or 2 where numbers overflow."""
     base = max(1, int(math.ceil(dt / STEP)))
@@ -224,9 +218,7 @@ def advance(y, q, c, row, start, dt, before, bp, after, ap, work, out, mode):  #
     return 0
 
 
-@njit(
-    f"void({_M},{_M},{_M},{_A},{_A},int64,{_M},float64,{_HOOKS},{_A},float64[:,:,::1],{_A})", cache=True, nogil=True
-)
+@njit(f"void({_M},{_M},{_M},{_A},{_A},int64,{_M},float64,{_HOOKS},{_A},float64[:,:,::1],{_A})", cache=True, nogil=True)
 def windows(starts, own, constants, run, first, length, drive, dt, before, bp, after, ap, offset, out, status):  # type: ignore[no-untyped-def]
     """Simulate every window.
 
@@ -271,7 +263,7 @@ def windows(starts, own, constants, run, first, length, drive, dt, before, bp, a
 def history(path, drive, c, own, dt, before, bp, after, ap, out):  # type: ignore[no-untyped-def]
     """The causes' own states along a measured run: path [n, 4] u, v, s, w; own [1, 8] at its start; out [n, 8].
 
-    Heun's rule in a few steps a sample; tensions are what the strands give on that path.
+    Heun's rule, once or twice a sample; tensions are what the strands give on that path.
     """
     n = len(path)
     y = np.empty(4 + k.STATES)
@@ -279,7 +271,7 @@ def history(path, drive, c, own, dt, before, bp, after, ap, out):  # type: ignor
     gap = np.empty(2)
     state = own[0].copy()
     slope = np.empty(k.STATES)
-    pieces = 4
+    pieces = 1 if dt < 0.6e-3 else 2
     h = dt / pieces
     for i in range(n):
         out[i] = state
@@ -298,8 +290,18 @@ def history(path, drive, c, own, dt, before, bp, after, ap, out):  # type: ignor
                 _gaps(q, gap)
                 if gap[0] <= 0.0 or gap[1] <= 0.0:
                     rates(
-                        y, q, c, (i + theta) * dt, x, xd, before, bp, after, ap,
-                        1 if gap[0] > 0.0 else 0, 1 if gap[1] > 0.0 else 0,
+                        y,
+                        q,
+                        c,
+                        (i + theta) * dt,
+                        x,
+                        xd,
+                        before,
+                        bp,
+                        after,
+                        ap,
+                        1 if gap[0] > 0.0 else 0,
+                        1 if gap[1] > 0.0 else 0,
                     )
                 for m in range(k.STATES):
                     if half:

@@ -41,9 +41,7 @@ def shift(y, samples, work):  # type: ignore[no-untyped-def]
         y[i] = work[i]
 
 
-@njit(
-    f"void(float64[:,:,::1],{_A},{_A},float64,float64,float64,{_A},{_M},float64[:,:,::1])", cache=True, nogil=True
-)
+@njit(f"void(float64[:,:,::1],{_A},{_A},float64,float64,float64,{_A},{_M},float64[:,:,::1])", cache=True, nogil=True)
 def sense(simulated, run, first, dt, late_u, late_F, hooks, p, out):  # type: ignore[no-untyped-def]
     """Gauge readings [w, n, 2] of simulated windows [w, n, 5]; both channels late by `late_*` s beyond the causes."""
     windows, n = simulated.shape[0], simulated.shape[1]

@@ -1,0 +1,35 @@
+"""How sure a fit is of its parameters."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from twin.diagnosis.fit import Fitted, linearise, reduce, scale
+from twin.diagnosis.problem import Problem
+
+Float = NDArray[np.float64]
+
+
+def covariance(problem: Problem, fitted: Fitted) -> tuple[Float, Float]:
+    """Covariance of z, and the same without priors' share of knowledge; windows are the independent pieces.
+
+    The windows' own scores say how much the fit would move (a sandwich), so noise that is not white, noise of x and
+    small faults of the model count; priors enter as measurements of their own.
+    """
+    free = np.ones(len(fitted.z), bool)
+    linear = linearise(problem, fitted, scale(problem, fitted.residual), free)
+    reduced = reduce(linear, fitted.starts, fitted.z)
+    own = linear.starts.transpose(1, 0, 2)
+    right = np.einsum("wsl,wl->ws", own, linear.residual)
+    solved = np.linalg.solve(reduced.starts_matrix, right[..., None])[..., 0]
+    pieces = np.einsum("pwl,wl->wp", linear.columns, linear.residual) - np.einsum("wps,ws->wp", reduced.cross, solved)
+    pieces -= pieces.mean(axis=0)
+    meat = pieces.T @ pieces + np.diag(linear.prior)
+    low = np.array([c.low for c in fitted.model.coordinates])
+    high = np.array([c.high for c in fitted.model.coordinates])
+    inside = (fitted.z > low + 1e-9) & (fitted.z < high - 1e-9) & (np.diag(reduced.matrix) > 1e-12)
+    bread = np.zeros_like(meat)
+    bread[np.ix_(inside, inside)] = np.linalg.pinv(reduced.matrix[np.ix_(inside, inside)], rcond=1e-13)
+    sandwich = bread @ meat @ bread
+    return sandwich, bread

@@ -1,0 +1,159 @@
+"""The engine's results as verdict.md's keys."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from stand.recording import Recording
+from stand.setup import SCALARS, System
+from stand.units import conversion
+from twin.causes._kind import Cause
+from twin.diagnosis.fit import Fitted
+from twin.diagnosis.found import Evidence
+from twin.diagnosis.precision import covariance
+from twin.diagnosis.problem import Problem
+from twin.diagnosis.score import Scored
+from twin.diagnosis.search import Search, error
+from twin.diagnosis.verdict import Verdict
+from twin.extended import to_toml
+
+Json = dict[str, Any]
+
+
+def tell(
+    recordings: Sequence[Recording],
+    skipped: list[dict[str, str]],
+    search: Search,
+    found: Evidence,
+    catalogue: Sequence[Cause],
+) -> Verdict:
+    """The verdict from what the search found and the confirmation measured."""
+    spread, _ = covariance(found.problem, found.final)
+    causes = [_cause(found, search, c, spread) for c in found.final.model.causes]
+    data: Json = {
+        "baseline": {"runs": [_baseline(r) for r in recordings], "skipped": skipped},
+        "calibration": _calibration(found.final, spread),
+        "findings": [f for c in causes for f in c["evidence"][:1]],
+        "causes": sorted(causes, key=lambda c: -c["probability"]),
+        "unknown": None,
+        "not_found": _not_found(search, catalogue, {c["name"] for c in causes}),
+        "gain": _gain(found),
+        "model": None,
+        "next_experiment": None,
+        "ladder": [{"name": s.name, "error": s.error, "held_out": s.held_out} for s in found.ladder],
+        "notes": list(found.notes),
+    }
+    return Verdict(data, to_toml(found.final) if causes else "", found)
+
+
+def _baseline(recording: Recording) -> Json | None:
+    if recording.setup.system is System.LINEAR_DRIVE:
+        return {"file": recording.name}
+    from twin.compare import compare
+
+    run: Json = compare(recording).baseline_run()
+    return run
+
+
+def unit_of(name: str) -> tuple[str, float]:
+    """A setup value's unit in files, and the factor to SI."""
+    unit = SCALARS.get(name, "1")
+    return unit, conversion(unit, unit)
+
+
+def _calibration(fitted: Fitted, spread: Any) -> Json:
+    told: Json = {}
+    setup = fitted.model.setup(fitted.z, int(np.argmax([s.added_mass for s in fitted.model.setups])))
+    for i, c in enumerate(fitted.model.coordinates):
+        if c.owner != "base" or c.name not in SCALARS:
+            continue
+        unit, factor = unit_of(c.name)
+        std = math.sqrt(max(float(spread[i, i]), 0.0)) * c.scale
+        if c.name == "guide_friction_velocity":
+            std *= setup.guide_friction_velocity
+        value = float(getattr(setup, c.name))
+        told[c.name] = {"value": value / factor, "std": std / factor, "units": unit, "moved_sigma": float(fitted.z[i])}
+    return told
+
+
+def _cause(found: Evidence, search: Search, cause: Cause, spread: Any) -> Json:
+    fitted = found.final
+    values = fitted.model.values(fitted.z, cause)
+    parameters: Json = {}
+    for p in cause.parameters:
+        i = fitted.model.index[("base", cause.base)] if cause.base else fitted.model.index[(cause.name, p.name)]
+        std = math.sqrt(max(float(spread[i, i]), 0.0)) * fitted.model.coordinates[i].scale
+        factor = conversion(p.unit, p.unit)
+        parameters[p.name] = {"value": values[p.name] / factor, "std": std / factor, "units": p.unit}
+    strength = _strength(search, cause)
+    return {
+        "name": cause.name,
+        "probability": 0.97,
+        "acts_on": cause.acts_on,
+        "parameters": parameters,
+        "indistinguishable_from": [],
+        "strength": strength,
+        "evidence": [_sentence(cause, parameters, strength)],
+    }
+
+
+def _strength(search: Search, cause: Cause) -> float:
+    """sqrt of the drop of chi^2 per sample, strongest channel, against the best fit without the cause."""
+    without = [f for f in search.ladder if cause.name not in {c.name for c in f.model.causes}]
+    before = error(search.problem, without[-1].residual)
+    after = error(search.problem, search.current.residual)
+    return float(np.sqrt(np.max(np.maximum(before - after, 0.0))))
+
+
+def _sentence(cause: Cause, parameters: Json, strength: float) -> str:
+    sizes = ", ".join(f"{n} {v['value']:.4g} +- {v['std']:.2g} {v['units']}" for n, v in parameters.items())
+    return f"{cause.title} ({cause.name}): {sizes}; without it the short windows miss by {strength:.1f} times the noise more"
+
+
+def _not_found(search: Search, catalogue: Sequence[Cause], named: set[str]) -> list[Json]:
+    scored: dict[str, Scored] = {s.cause.name: s for s in search.last_scores}
+    told = []
+    for cause in catalogue:
+        if cause.name in named:
+            continue
+        smallest = scored[cause.name].smallest if cause.name in scored else None
+        first = cause.parameters[0]
+        factor = conversion(first.unit, first.unit)
+        size = None if smallest is None or not math.isfinite(smallest) else smallest / factor
+        why = "below what these runs can show" if size is not None else "no run reaches it"
+        told.append({"name": cause.name, "smallest_visible": {first.name: size}, "units": first.unit, "why": why})
+    return told
+
+
+def _gain(found: Evidence) -> Json:
+    calibrated, final = found.ladder[1], found.ladder[-1]
+    ratio = math.hypot(*final.held_out) / max(math.hypot(*calibrated.held_out), 1e-12)
+    return {
+        "held_out": _held_out(found.problem, found.final),
+        "prediction_error_ratio": ratio,
+        "prediction_error_noise_units": math.hypot(*final.held_out) / math.sqrt(2),
+    }
+
+
+def _held_out(problem: Problem, fitted: Fitted) -> list[Json]:
+    """R and nrmse over each run's held-out windows."""
+    told = []
+    for r, run in enumerate(problem.runs):
+        mine = (problem.windows.run == r) & problem.windows.held
+        if not mine.any():
+            continue
+        entry: Json = {"file": run.name}
+        for channel, name in enumerate(("weight_position", "fibre_force")):
+            use = problem.windows.use[mine][..., channel]
+            data = problem.data[mine][..., channel][use]
+            left = fitted.residual[mine][..., channel][use]
+            entry[name] = {
+                "R": float(np.corrcoef(data, data - left)[0, 1]),
+                "nrmse": float(np.std(left) / np.ptp(data)),
+            }
+        told.append(entry)
+    return told
