@@ -13,6 +13,7 @@ import numpy as np
 import serial
 
 from stand.block import Block
+from stand.clock.aim import Aim
 from stand.codecs.codec import Feeder, load_codec
 from stand.config import GaugeConfig, Stand
 from stand.drive.profile import load_profile
@@ -151,10 +152,10 @@ class GaugeReader:
 
 
 class RingReader:
-    """The drive's position ring on a connection of its own, polled at a dithered rate.
+    """The drive's position ring on a connection of its own, polled where its samples meet, and dithered.
 
-    The dither keeps polls from beating with the ring's clock: each poll brackets a sample's time from both sides,
-    and it is the closest brackets that fix the clock.
+    Each poll brackets a sample's time from both sides, and it is the closest brackets that fix the clock; the dither
+    keeps polls from beating with the ring.
     """
 
     def __init__(self, stand: Stand, clock: Clock = time.monotonic, seed: int | None = None) -> None:
@@ -166,7 +167,7 @@ class RingReader:
         self.decoder = RingDecoder(self.profile, direction=stand.drive.direction)
         self._link, self._clock = ModbusLink(stand.drive.link, clock), clock
         self._period = 1.0 / stand.drive.poll_rate
-        self._random = random.Random(seed)
+        self._aim = Aim(self._period, 1.0 / self.profile.trace.clock_hz, DITHER, seed)
         self._thread: threading.Thread | None = None
         self._stopping = threading.Event()
         trace = self.profile.trace
@@ -217,10 +218,11 @@ class RingReader:
             while not self._stopping.is_set():
                 raw = self.poll()
                 sink(raw, self.decoder.decode(raw))
+                self._aim.polled(self.decoder.head or 0, raw.request, raw.response)
                 due = max(due + self._period, self._clock() - self._period)
-                wait = due + self._random.uniform(-DITHER, DITHER) - self._clock()
+                wait = self._aim.next(due) - self._clock()
                 if wait > 0:
-                    self._stopping.wait(wait)
+                    time.sleep(wait)
         except StandError as error:
             if not self._stopping.is_set():
                 on_error(self.instrument, error)
