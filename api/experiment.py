@@ -29,7 +29,8 @@ class Experiment:
     """order: as given. phases: all names in order; phase: the one that it is in. seconds: planned, with rests.
 
     elapsed: s of the recording so far. run: the recording's name once it is closed. why: of a trip or a failure.
-    latency: sample to published, {"p50", "p99"} s. dropped: live blocks that the tap let fall.
+    latency: sample to published, {"p50", "p99"} s. dropped: live blocks that the tap let fall. note: what went
+    wrong beside the run, which goes on.
     """
 
     id: str
@@ -46,6 +47,7 @@ class Experiment:
     why: str = ""
     latency: dict[str, float] | None = None
     dropped: int = 0
+    note: str = ""
 
     @property
     def active(self) -> bool:
@@ -75,6 +77,7 @@ class Experiment:
             "why": self.why,
             "latency": self.latency,
             "dropped": self.dropped,
+            "note": self.note,
             "links": {"self": f"/experiments/{self.id}", **({"run": f"/runs/{self.run}"} if self.run else {})},
         }
 

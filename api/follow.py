@@ -11,6 +11,7 @@ import numpy as np
 from api.experiment import Experiment, State
 from api.latency import Latency
 from stand.clock import LiveBlock
+from stand.errors import StandError
 from stand.runs import Failed, Finished, Health, Outcome, Phase, Progress, Trip
 
 if TYPE_CHECKING:
@@ -99,8 +100,19 @@ class Follower:
             self._serve(joined(self._waiting))
             self._waiting.clear()
 
+    def _score(self, block: LiveBlock) -> LiveScore | None:
+        """What the twin says; a twin that gives up is let go, the run goes on."""
+        if self.twin is None:
+            return None
+        try:
+            return self.twin.push(block.time, block.x, block.u, block.F)
+        except StandError as error:
+            self.twin = None
+            self.tell(note=f"the twin gave up: {error}")
+            return None
+
     def _serve(self, block: LiveBlock) -> None:
-        score = self.twin.push(block.time, block.x, block.u, block.F) if self.twin is not None else None
+        score = self._score(block)
         span = float(block.time[-1] - block.time[0])
         self._sampled(block, score, self.latency.add(self._now() - block.newest_arrival + span))
         elapsed = float(block.time[-1])

@@ -177,7 +177,7 @@ class Operator:
         stream = Stream(self.hub, experiment.id)
         follower = Follower(experiment, None, changed=self._changed, sampled=stream.sampled, health=self._health)
         try:
-            follower.twin = twinned()
+            _give_twin(follower, twinned)
             last = follower.follow(handle.events())
             self._tripped = last.why if last.state in (State.TRIPPED, State.EMERGENCY) else ""
         except Exception as error:
@@ -232,3 +232,11 @@ class Operator:
             self._tell_stand("disconnected", resting(self.stand, "disconnected"), str(error))
         finally:
             self._busy.release()
+
+
+def _give_twin(follower: Follower, twinned: Callable[[], LiveTwin]) -> None:
+    """A run whose twin can't be made goes on without one, and says so."""
+    try:
+        follower.twin = twinned()
+    except Exception as error:
+        follower.tell(note=f"no twin beside this run: {error}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,6 +11,8 @@ if TYPE_CHECKING:
     from stand.setup import Setup
     from twin.live import LiveTwin
 
+#: one thread at a time imports and compiles a model
+_MAKING = threading.Lock()
 #: how long a reader of a fresh recording may keep its twin's notes waiting, s
 PATIENCE = 10.0
 
@@ -17,10 +20,12 @@ PATIENCE = 10.0
 def make_twin(name: str, setup: Setup) -> LiveTwin:
     """A live twin of the model `name` (of `stand models`, or an extended model's file), compiled and ready."""
     from api.catalogue import find_model
-    from twin.live import LiveTwin
 
-    model, parameters, setup = find_model(name, setup)
-    return LiveTwin(setup, model, parameters)
+    with _MAKING:
+        from twin.live import LiveTwin
+
+        model, parameters, setup = find_model(name, setup)
+        return LiveTwin(setup, model, parameters)
 
 
 def store(path: Path, twin: LiveTwin | None) -> None:

@@ -44,6 +44,7 @@ class ExperimentView(BaseModel):
     why: str = Field(examples=[""], description="of a trip, a stop or a failure, in words")
     latency: LatencyView | None
     dropped: int = Field(examples=[0], description="live blocks that the tap let fall")
+    note: str = Field(examples=[""], description="what went wrong beside the run, which goes on")
     links: dict[str, str] = Field(examples=[{"self": "/experiments/3f0c9a1b22d4"}])
 
 

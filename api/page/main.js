@@ -77,6 +77,7 @@ function banner() {
   if (run && state.dismissed !== key && (run.state === "tripped" || run.state === "failed" || run.state === "emergency-stopped"))
     return show("bad", run.state === "failed" ? "The experiment failed." : run.state === "tripped" ? "The stand was tripped and is stopped." : "Emergency stop: the stand is stopped.",
       `${run.why || ""} Nothing resumes by itself.`, () => { state.dismissed = key; });
+  if (run?.note && run.state === "running") return show("warn", "The run goes on without its twin.", run.note);
   if (state.stand?.state === "disconnected") return show("warn", "The stand is not connected.", state.stand.message || "");
   at("banner").hidden = true;
 }
