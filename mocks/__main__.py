@@ -118,14 +118,15 @@ def _effects(arguments: list[str]) -> int:
 
     told = [
         {
-            "name": e.name,
-            "acts_on": e.acts_on,
-            "catalogued": e.catalogued,
-            "sizes": {s.name: s.default for s in e.sizes},
+            "name": effect.name,
+            "acts_on": effect.acts_on,
+            "catalogued": effect.catalogued,
+            "sizes": {size.name: size.default for size in effect.sizes},
+            "visible": any(s.default != s.null for s in effect.sizes if not s.steady and not s.choices),
         }
-        for e in everything()
+        for effect in everything()
     ]
-    print(json.dumps(told))
+    print(json.dumps(told, allow_nan=False))
     return 0
 
 

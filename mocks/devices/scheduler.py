@@ -72,7 +72,7 @@ class Scheduler(threading.Thread):
             self.look(self.world.now + BEHIND)
         self.world.advance(now)
         for gauge in self.gauges:
-            if gauge.wake <= now + 2.0 * self.lead:
+            if gauge.wake <= now + 1.2 * self.lead:
                 gauge.prepare(now)
 
     def look(self, now: float) -> None:

@@ -39,7 +39,8 @@ DIAL_ZERO = 0.1  # m within which the dial gauge's own zero is drawn
 
 def rig_of(config: StandConfig) -> Rig:
     """The true rig: the published one, its values drawn by config.errors, then as config.plant says."""
-    true = draw_stand(config.seed, errors=config.errors).true if config.errors else Rig()
+    drawn = draw_stand(config.seed, errors=config.errors)
+    true = drawn.hiding(config.hidden) if config.errors else Rig()
     return true.but(**dict(config.plant))
 
 

@@ -25,10 +25,14 @@ class Trajectory:
     """Pieces of constant acceleration: rows (time, position, velocity, acceleration); the last one holds on."""
 
     def __init__(self, time: float, position: float) -> None:
-        self.pieces = np.array([[time, position, 0.0, 0.0]])
+        self.pieces, self.end = np.array([[time, position, 0.0, 0.0]]), time
 
     def sample(self, times: Float) -> Float:
         """(x, x', x'') [n, 3] at times [n]."""
+        if times[0] >= self.end:
+            rest = np.zeros((len(times), 3))
+            rest[:, 0] = self.pieces[-1, 1]
+            return rest
         piece = self.pieces[np.maximum(np.searchsorted(self.pieces[:, 0], times, side="right") - 1, 0)]
         t = times - piece[:, 0]
         x, v, a = piece[:, 1], piece[:, 2], piece[:, 3]
@@ -36,12 +40,14 @@ class Trajectory:
 
     def state(self, time: float) -> State:
         """Position and velocity at a time."""
+        if time >= self.end:
+            return float(self.pieces[-1, 1]), 0.0
         x, v, _ = self.sample(np.array([time]))[0]
         return float(x), float(v)
 
     def done(self, time: float) -> bool:
         """Whether all is at its end by then."""
-        return bool(time >= self.pieces[-1, 0])
+        return time >= self.end
 
     def move(self, time: float, target: float, ramps: Ramps) -> None:
         """From the state at `time` to rest at `target`."""
@@ -57,11 +63,7 @@ class Trajectory:
 
     def hold(self, time: float, position: float) -> None:
         """At rest at `position` from `time` on."""
-        self.pieces = np.array([[time, position, 0.0, 0.0]])
-
-    def shift(self, by: float) -> None:
-        """The same motion in coordinates that lie elsewhere."""
-        self.pieces[:, 1] += by
+        self.pieces, self.end = np.array([[time, position, 0.0, 0.0]]), time
 
     def follow(self, time: float, start: State, steps: list[tuple[float, float]], target: float) -> None:
         """From a state at `time` through (duration, acceleration) steps, then at rest at `target`."""
@@ -70,7 +72,7 @@ class Trajectory:
             if span > 0.0:
                 rows.append((time, x, v, a))
                 x, v, time = x + span * (v + 0.5 * a * span), v + a * span, time + span
-        self.pieces = np.array([*rows, (time, target, 0.0, 0.0)])
+        self.pieces, self.end = np.array([*rows, (time, target, 0.0, 0.0)]), time
 
 
 def move_pieces(start: State, target: float, ramps: Ramps) -> list[tuple[float, float]]:
