@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,6 +12,7 @@ Bool = NDArray[np.bool_]
 
 TAPS = 24
 _BETA = 7.0
+_FINE = 1024
 
 
 def interpolate(values: Float, position: Float) -> Float:
@@ -21,12 +24,24 @@ def interpolate(values: Float, position: Float) -> Float:
     padded = _continued(values, half)
     position = np.clip(position, 0.0, len(values) - 1.0)
     whole = np.floor(position).astype(np.int64)
-    offsets = np.arange(-half + 1, half + 1)
-    distance = (position - whole)[:, None] - offsets[None, :]
-    weights = np.sinc(distance) * np.i0(_BETA * np.sqrt(np.clip(1 - (distance / half) ** 2, 0.0, 1.0)))
-    weights /= weights.sum(axis=1, keepdims=True)
-    out: Float = np.einsum("ij,ij->i", padded[whole[:, None] + offsets[None, :] + half], weights)
+    table = _kernel()
+    place = (position - whole) * _FINE
+    row = np.minimum(place.astype(np.int64), _FINE - 1)
+    share = (place - row)[:, None]
+    weights = table[row] * (1 - share) + table[row + 1] * share
+    windows = np.lib.stride_tricks.sliding_window_view(padded, TAPS)
+    out: Float = np.einsum("ij,ij->i", windows[whole + 1], weights)
     return out
+
+
+@cache
+def _kernel() -> Float:
+    """Weights [1025, 24] for shares of a sample from 0 to 1; linear between rows is good to 2e-6."""
+    half = TAPS // 2
+    distance = np.linspace(0, 1, _FINE + 1)[:, None] - np.arange(-half + 1, half + 1)[None, :]
+    weights = np.sinc(distance) * np.i0(_BETA * np.sqrt(np.clip(1 - (distance / half) ** 2, 0.0, 1.0)))
+    normed: Float = weights / weights.sum(axis=1, keepdims=True)
+    return normed
 
 
 def _continued(values: Float, count: int) -> Float:

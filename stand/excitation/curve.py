@@ -97,14 +97,17 @@ def fastest_step(height: float, limits: Limits, share: float = 0.95) -> Step:
     return Step(height, (height / top, ramp, ramp))
 
 
-def train(steps: list[tuple[float, Step]], duration: float) -> Callable[[Float], Float]:
-    """Steps that begin at given times, added up."""
+def train(begins: list[float], up: Step) -> Callable[[Float], Float]:
+    """Steps that begin at ascending times, up and down in turn, none before the one before it has ended."""
+    starts = np.array(begins)
 
     def evaluate(t: Float) -> Float:
-        out = np.zeros((4, *t.shape))
-        for begin, step in steps:
-            begun = t > begin
-            out[:, begun] += step.evaluate(t[begun] - begin)
+        number = np.searchsorted(starts, t, "right") - 1
+        out = up.evaluate(np.where(number >= 0, t - starts[np.maximum(number, 0)], 0.0))
+        down = number % 2 == 1
+        out[:, down] *= -1.0
+        out[0, down] += up.height
+        out[:, number < 0] = 0.0
         return out
 
     return evaluate

@@ -6,14 +6,13 @@ import math
 from collections.abc import Callable
 
 from stand.errors import InputError
-from stand.excitation.curve import Curve, Peaks, Step, train
+from stand.excitation.curve import Curve, Step, train
 from stand.excitation.spec import Excitation
 
 
 def up_and_down(excitation: Excitation, step: Callable[[float], Step]) -> Curve:
     """Up at the beginning of each cycle, down at its middle. step(height) makes a flank."""
-    up, down = step(excitation.amplitude), step(excitation.amplitude)
-    down = Step(-down.height, down.times)
+    up = step(excitation.amplitude)
     half = 0.5 / excitation.frequency
     if up.duration > half * (1 + 1e-9):
         largest = math.floor(500 / up.duration) / 1000
@@ -22,7 +21,6 @@ def up_and_down(excitation: Excitation, step: Callable[[float], Step]) -> Curve:
             "a flank does not fit half a cycle", where="frequency", value=excitation.frequency, remedy=remedy
         )
     count = round(excitation.cycles)
-    steps = [(k * half, up if k % 2 == 0 else down) for k in range(2 * count)]
+    begins = [k * half for k in range(2 * count)]
     duration = count / excitation.frequency
-    peaks = Peaks(up.peaks.speed, up.peaks.acceleration, up.peaks.jerk)
-    return Curve(duration, peaks, (0.0, excitation.amplitude), train(steps, duration))
+    return Curve(duration, up.peaks, (0.0, excitation.amplitude), train(begins, up))
