@@ -43,10 +43,12 @@ from twin.kernels.force_series import (
     U,
     V,
     X,
-    compiled,
     series,
 )
 from twin.kernels.force_switch import NEVER, SPEED, STRAND1, STRAND2, swing, switch, value
+from twin.kernels.jit import compiler, part
+
+compiled = compiler("force")
 
 #: largest change of v/v_s in one series of the tanh
 REACH = 4.0
@@ -54,7 +56,7 @@ MOST_SWITCHES = 200
 FINE, NOT_FINITE, TOO_MANY = 0, 2, 3
 
 
-@compiled("f8(f8[::1], f8[::1], f8, f8)")
+@part
 def gauge(k, y, x, w):
     """The tension at the force gauge, N."""
     single = k[RIM] == 0.0
@@ -83,14 +85,14 @@ def settle(k, y, x, w):
     y[5] = 1.0 if stretch > 0.0 and k[C2] * stretch + k[B2] * (w - y[3]) > 0.0 else 0.0
 
 
-@compiled("i8(f8[::1], f8[::1])")
+@part
 def law_at(k, y):
     """Which law serves the guide's friction at this speed."""
     z = abs(y[1]) / k[DRY_SPEED]
     return SLIDING if z > SLIDES else (CREEPING if z < CREEPS else SMOOTH)
 
 
-@compiled("f8(f8[::1], f8[:, ::1], i8, i8, f8)")
+@part
 def trusted(k, C, law, terms, size):
     """The share of a step up to which its series holds: converged, and within one law of friction."""
     eta = 1.0
@@ -101,7 +103,7 @@ def trusted(k, C, law, terms, size):
     return eta * reach / change if change > reach else eta
 
 
-@compiled("b1(f8[::1], f8[:, ::1], f8[::1], i8)")
+@part
 def calm(k, C, y, law):
     """True where bounds alone show that a converged series holds to the step's end and nothing switches in it."""
     single, moved = k[RIM] == 0.0, C[SUM, SWING + V]
@@ -126,7 +128,7 @@ def calm(k, C, y, law):
     return -(C[X, 0] - C[S, 0] + k[REST] / k[C2]) > driven + C[SUM, SWING + S]
 
 
-@compiled("f8(f8[::1], f8[::1], f8[:, ::1], f8[::1], f8, f8)")
+@part
 def stride(k, y, C, cubic, at, dt):
     """One series step from share `at` of a sample to its end or to the first switch; returns the share reached."""
     share, single = 1.0 - at, 1.0 if k[RIM] == 0.0 else 0.0
@@ -158,7 +160,7 @@ def stride(k, y, C, cubic, at, dt):
     return 1.0 if end >= 1.0 else at + end * share
 
 
-@compiled("i8(f8[::1], f8[::1], f8[:, ::1], f8[::1], f8[:, ::1], i8, f8)")
+@part
 def sample(k, y, C, cubic, drive, i, dt):
     """Carries y over the interval after sample i by series, from switch to switch. Returns a Status."""
     x0, w0, x1, w1 = drive[i, 0], drive[i, 1] * dt, drive[i + 1, 0], drive[i + 1, 1] * dt

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twin.kernels.force import advance
-from twin.kernels.force_series import compiled
+from twin.kernels.jit import compiler
 
+compiled = compiler("force")
 Float = NDArray[np.float64]
 
 #: runs that a thread takes at a time

@@ -6,13 +6,14 @@ from __future__ import annotations
 import math
 
 from twin.kernels.force_layout import B1, B2, C1, C2, DRY_SPEED, REST, RIM, THRESHOLD
-from twin.kernels.force_series import CREEPING, SLIDING, compiled
+from twin.kernels.force_series import CREEPING, SLIDING
+from twin.kernels.jit import part
 
 #: |v|/v_s above which tanh is 1, and below which it is its argument, to rounding
 SLIDES, CREEPS = 19.0, 4e-6
 
 
-@compiled("f8(f8[:, ::1], i8, f8, f8, f8, f8, f8, f8, f8, f8, f8)")
+@part
 def respond_with(M, j, sign, u, v, s, w, a0, a1, a2, a3):
     """Output j of the propagator."""
     return (
@@ -22,20 +23,20 @@ def respond_with(M, j, sign, u, v, s, w, a0, a1, a2, a3):
     )
 
 
-@compiled("f8(f8, f8, f8, f8, f8)")
+@part
 def strand(taut, stiff, rest, stretch, damped):
     """Above 0 while the strand stays as it is, N: its tension, or what it lacks to be taut."""
     pull = stiff * stretch + rest
     return pull + damped if taut != 0.0 else -min(pull, pull + damped)
 
 
-@compiled("b1(f8, f8, f8)")
+@part
 def stays(f0, fm, f1):
     """True where three values and the parabola through them stay well above 0."""
     return min(f0, min(fm, f1)) > abs(f0 - 2.0 * fm + f1) + 0.1 * abs(f1 - f0)
 
 
-@compiled("i8(f8[::1], f8[::1], f8[:, ::1], i8, f8[:, ::1], i8, f8, f8[:, ::1])")
+@part
 def leap(k, y, M, law, drive, i, dt, out):
     """Carries y exactly from sample i over as many samples as stay in one regime; returns the sample reached."""
     u, v, s, w, taut1, taut2 = y[0], y[1], y[2], y[3], y[4], y[5]

@@ -10,21 +10,22 @@ from __future__ import annotations
 import numpy as np
 
 from twin.kernels.force_layout import TOLERANCE
-from twin.kernels.force_series import CREEPING, ORDER, SLIDING, S, U, V, W, X, compiled, series
+from twin.kernels.force_series import CREEPING, ORDER, SLIDING, S, U, V, W, X, series
 from twin.kernels.force_switch import value
+from twin.kernels.jit import part
 
 INPUTS = 10
 #: propagators: strand 1 taut, strand 2 taut, sliding or creeping
 SLOTS = 8
 
 
-@compiled("i8(f8, f8, i8)")
+@part
 def slot_of(taut1, taut2, law):
     """Which propagator serves these strands and this law of friction."""
     return (1 if taut1 != 0.0 else 0) + (2 if taut2 != 0.0 else 0) + (4 if law == CREEPING else 0)
 
 
-@compiled("void(f8[:, ::1], f8[::1], f8, f8)")
+@part
 def place_drive(C, cubic, at, share):
     """Writes the drive's cubic (powers of the sample's share) as powers of a step that begins at `at`."""
     C[X, 0] = cubic[0] + at * (cubic[1] + at * (cubic[2] + at * cubic[3]))
@@ -33,7 +34,7 @@ def place_drive(C, cubic, at, share):
     C[X, 3] = share * share * share * cubic[3]
 
 
-@compiled("i8(f8[::1], f8[:, ::1], f8[::1], f8[::1], f8, f8, f8, f8, i8, f8, f8, f8)")
+@part
 def respond(k, C, y, cubic, begin, end, taut1, taut2, law, sign, one, dt):
     """Carries y linearly from share `begin` to `end` of a sample, in as many steps as the series asks for."""
     at = begin
@@ -54,7 +55,7 @@ def respond(k, C, y, cubic, begin, end, taut1, taut2, law, sign, one, dt):
     return steps
 
 
-@compiled("void(f8[::1], f8[:, ::1], f8, f8, f8, i8, f8[:, ::1])")
+@part
 def propagator(k, C, dt, taut1, taut2, law, M):
     """Fills M [10, 8]: to each unit input the response in the middle (first four) and at the end of a sample."""
     y, cubic = np.zeros(4), np.zeros(4)

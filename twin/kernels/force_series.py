@@ -28,9 +28,7 @@ from twin.kernels.force_layout import (
     TOLERANCE,
     WEIGHT,
 )
-from twin.kernels.jit import compiler
-
-compiled = compiler("force")
+from twin.kernels.jit import part
 
 ORDER = 20
 #: rows of the work array: motion, tension (whether it acts or not), drive, friction, threshold terms
@@ -42,7 +40,7 @@ SUM, SWING = 13, 4
 SMOOTH, SLIDING, CREEPING = 0, 1, 2
 
 
-@compiled("f8(f8[:, ::1], i8)", fastmath={"contract", "reassoc"})
+@part(fastmath={"contract", "reassoc"})
 def next_tanh(C, n):
     """Term n + 1 of y = tanh z, from (n + 1) y_{n+1} = sum of (1 - y^2)_{n-j} (j + 1) z_{j+1}; places both."""
     total = 0.0
@@ -60,7 +58,7 @@ def next_tanh(C, n):
     return made
 
 
-@compiled("f8(f8[::1], f8[:, ::1], i8, i8, f8, f8, f8)", fastmath={"contract", "reassoc"})
+@part(fastmath={"contract", "reassoc"})
 def beyond_threshold(k, C, row, n, share, stretch, rate):
     """Term n of what S1's eq. 1 adds to a tension: (|u'| - v_tr) times (b_2 d' + c_2 d)."""
     C[row, n] = share * (k[DAMPING_SLOPE] * rate + k[STIFFNESS_SLOPE] * stretch)
@@ -70,7 +68,7 @@ def beyond_threshold(k, C, row, n, share, stretch, rate):
     return total
 
 
-@compiled("UniTuple(f8, 2)(f8[::1], f8[:, ::1], f8, f8, f8, i8, f8, f8, f8)")
+@part
 def series(k, C, h, taut1, taut2, law, sign, fast, one):
     """Fills C with the series over h from C[U..W, 0] and the drive's C[X, 0..3]; returns terms and last size.
 

@@ -6,14 +6,15 @@ from __future__ import annotations
 import math
 
 from twin.kernels.force_layout import C1, C2, REST, SIGNED, THRESHOLD
-from twin.kernels.force_series import P, Q, S, U, V, X, compiled
+from twin.kernels.force_series import P, Q, S, U, V, X
+from twin.kernels.jit import part
 
 STRAND1, STRAND2, SPEED = 1, 2, 3
 PARTS = 6
 NEVER = 2.0
 
 
-@compiled("f8(f8[:, ::1], i8, i8, f8)")
+@part
 def value(C, row, terms, at):
     """The polynomial of a row at `at` (a share of the step)."""
     total = 0.0
@@ -22,7 +23,7 @@ def value(C, row, terms, at):
     return total
 
 
-@compiled("f8(f8[:, ::1], i8, i8, f8)")
+@part
 def swing(C, row, terms, end):
     """A bound on how far a row's polynomial moves from its first term up to `end`."""
     total = 0.0
@@ -31,7 +32,7 @@ def swing(C, row, terms, end):
     return total
 
 
-@compiled("f8(f8[::1], f8[:, ::1], i8, i8, f8, f8, f8)")
+@part
 def margin(k, C, what, terms, now, single, at):
     """Above 0 while nothing switches: tension of a taut strand, slack of a slack one, distance to the threshold."""
     if what == SPEED:
@@ -49,7 +50,7 @@ def margin(k, C, what, terms, now, single, at):
     return -min(stretch, tension / k[C2])
 
 
-@compiled("b1(f8[::1], f8[:, ::1], i8, i8, f8, f8, f8)")
+@part
 def quiet(k, C, what, terms, now, single, end):
     """True where bounds alone show that `what` does not switch up to `end`."""
     if what == SPEED:
@@ -66,7 +67,7 @@ def quiet(k, C, what, terms, now, single, end):
     return -stretch > swing(C, far, terms, end) + swing(C, near, terms, end)
 
 
-@compiled("f8(f8[::1], f8[:, ::1], i8, i8, f8, f8, f8, f8)")
+@part
 def root(k, C, what, terms, now, single, low, high):
     """The switch between `low` (margin above 0) and `high` (below 0), on its far side, by Illinois steps."""
     a, b = low, high
@@ -94,14 +95,14 @@ def root(k, C, what, terms, now, single, low, high):
     return b
 
 
-@compiled("f8(f8[::1], f8[:, ::1], i8, i8, f8, f8, f8)")
+@part
 def switch(k, C, what, terms, now, single, end):
     """The first switch of `what` in (0, end], as a share of the step, or NEVER."""
     if quiet(k, C, what, terms, now, single, end):
         return NEVER
     low = 0.0
-    for part in range(1, PARTS + 1):
-        high = end * part / PARTS
+    for piece in range(1, PARTS + 1):
+        high = end * piece / PARTS
         if margin(k, C, what, terms, now, single, high) < 0.0:
             return root(k, C, what, terms, now, single, low, high)
         low = high

@@ -2,6 +2,9 @@
 
 Numba's cache looks only at the file a function stands in. A kernel spread over several files would go stale
 unseen, so each family of files (those whose names begin alike) has a folder named by what the files say.
+
+Only a kernel's entry points are `compiled`; its inner functions are `part`s, which are compiled into the entry
+point and cost nothing when that comes from the cache.
 """
 
 from __future__ import annotations
@@ -49,3 +52,9 @@ def compiler(family: str, folder: Path = HERE) -> Callable[..., Callable[[Callab
         return decorate
 
     return compiled
+
+
+def part(function: Callable[..., Any] | None = None, **options: Any) -> Any:
+    """An inner function of a kernel: `@part` or `@part(fastmath=...)`; typed and compiled by whoever calls it."""
+    settings: dict[str, Any] = {"nogil": True, "error_model": "numpy", **options}
+    return numba.njit(**settings) if function is None else numba.njit(**settings)(function)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from twin.kernels.jit import compiler
+from twin.kernels.jit import compiler, part
 
 compiled = compiler("running")
 
@@ -19,7 +19,7 @@ COUNT, SHIFT_A, SHIFT_B, LOWEST, HIGHEST = 12, 13, 14, 15, 16
 PLACES = 17
 
 
-@compiled("void(f8[::1], i8, f8)")
+@part
 def add(total, place, value):
     """total[place] += value, in a pair."""
     high, low = total[2 * place], total[2 * place + 1]
@@ -30,7 +30,7 @@ def add(total, place, value):
     total[2 * place + 1] = low - (total[2 * place] - s)
 
 
-@compiled("void(f8[::1], f8[::1], f8[::1], i8, i8, f8)")
+@part
 def gather(total, a, b, begin, end, sign):
     """Adds (sign 1) or takes away (sign -1) the sums over a[begin:end], b[begin:end]."""
     sa = sb = saa = sbb = sab = see = 0.0
@@ -52,7 +52,7 @@ def gather(total, a, b, begin, end, sign):
     total[COUNT] += sign * (end - begin)
 
 
-@compiled("f8(f8[::1], i8, i8, i8)")
+@part
 def moment(total, square, first, second):
     """n times the covariance: a sum of products less the product of sums over n, both as pairs."""
     n = total[COUNT]

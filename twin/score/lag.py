@@ -49,7 +49,7 @@ def correlation(measured: Float, simulated: Float, most: int) -> Float:
     sa, saa = _span(a, low, high), _span(a * a, low, high)
     sb, sbb = _span(b, low + k, high + k), _span(b * b, low + k, high + k)
     scale = np.maximum(saa - sa**2 / count, 0.0) * np.maximum(sbb - sb**2 / count, 0.0)
-    floor = 1e-24 * max(float(a @ a) * float(b @ b), 1e-300)
+    floor = 1e-24 * max(float(np.sum(a * a)) * float(np.sum(b * b)), 1e-300)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(scale > floor, (cross - sa * sb / count) / np.sqrt(scale), np.nan)
 
