@@ -53,3 +53,11 @@ def ring_values(ledger: Path) -> dict[int, float]:
     """The drive's counted samples by their number."""
     samples = read_samples(ledger, "drive")
     return dict(zip(samples["counter"].tolist(), samples["value"].tolist(), strict=True))
+
+
+def drive_truth(ledger: Path, moments: NDArray[np.float64], wait: float = 2.0) -> NDArray[np.float64]:
+    """The drive's true position at these host times, m [n]."""
+    deadline = time.monotonic() + wait
+    while (samples := read_samples(ledger, "drive"))["true_time"][-1] < moments[-1] and time.monotonic() < deadline:
+        time.sleep(0.05)
+    return np.interp(moments, samples["true_time"], samples["true_value"])

@@ -17,6 +17,7 @@ from stand.excitation.spec import Excitation, Shape
 from stand.recording import read_recording
 from stand.runs import Finished, LiveBlock, Outcome, Phase, RunOrder, jog, rest_check, start, status
 from tests.loop.kills import kill_once
+from tests.loop.ledger import drive_truth
 from tests.loop.simulated import Simulated, simulated_stand
 from tests.loop.soak import lost_samples
 from tests.loop.trips import trip_once
@@ -52,7 +53,7 @@ def test_a_run_is_recorded_without_a_gap_and_told_live(
     assert recording.complete
     assert recording.quality is not None
     assert not recording.quality.any()
-    assert np.ptp(recording.x) == pytest.approx(excitation.amplitude, rel=0.02)
+    assert np.ptp(recording.x) > 0.9 * excitation.amplitude
     assert recording.F[:800].mean() == pytest.approx(15.2, abs=3.5)
     live = [event for event in events if isinstance(event, LiveBlock)]
     assert sum(len(block.time) for block in live) > 0.97 * len(recording.time)
@@ -63,6 +64,9 @@ def test_a_run_is_recorded_without_a_gap_and_told_live(
         "drive": 0,
     }
     with h5py.File(last.path) as file:
+        origin = file["entry/data"].attrs["host_origin"]
+        truth = drive_truth(simulated.ledger, origin + recording.time)
+        assert np.std(recording.x - truth) < 30e-6  # its own figure is measured over fifty seeds elsewhere
         assert file["entry/comment"][()] == b"a test"
         assert file["entry/events"].attrs["outcome"] == "finished"
 
