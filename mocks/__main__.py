@@ -1,4 +1,4 @@
-"""The simulated stand as a process: `python -m mocks serve | replay | record | effects`."""
+"""The simulated stand as a process: `python -m mocks serve | replay | record | effects | timing`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Exit code 0; 2 for wrong input; 1 where the stand failed while it ran."""
     arguments = list(sys.argv[1:] if argv is None else argv)
     commands: dict[str, Callable[[list[str]], int]] = {
-        "serve": _serve, "replay": _replay, "record": _record, "effects": _effects
+        "serve": _serve, "replay": _replay, "record": _record, "effects": _effects, "timing": _timing
     }  # fmt: skip
     if not arguments or arguments[0] not in commands:
         print(f"usage: python -m mocks {{{','.join(commands)}}} ... (--help after a command)", file=sys.stderr)
@@ -111,6 +111,12 @@ def _record(arguments: list[str]) -> int:
     from mocks.record import main_record
 
     return main_record(arguments)
+
+
+def _timing(arguments: list[str]) -> int:
+    from mocks.timing import main_timing
+
+    return main_timing(arguments)
 
 
 def _effects(arguments: list[str]) -> int:

@@ -1,4 +1,4 @@
-"""A simulated stand's file: what it may say, and what is said of a mistake."""
+"""A simulated stand's files: its configuration with what is said of a mistake, and its ledger."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from mocks.config import ConfigError, load, parse, parse_hide
+from mocks.ledger import Ledger, Rows, read_events, read_samples
+from mocks.timing import timing
 
 
 def test_nothing_said_is_the_published_stand() -> None:
@@ -89,3 +92,30 @@ def test_an_unknown_command_is_refused() -> None:
     done = subprocess.run([sys.executable, "-m", "mocks", "dance"], capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert "serve" in done.stderr
+
+
+def test_a_ledger_tells_how_time_was_kept(tmp_path: Path) -> None:
+    ledger = Ledger(tmp_path, {})
+    counter = np.array([7, 8, 10])
+    rows = Rows.of(counter, counter / 2e3, 5.0 + counter / 2e3, np.zeros(3), np.zeros(3))
+    rows.handed[:] = rows.true_time + 0.5e-3
+    for device in ("force_gauge", "dial_gauge"):
+        ledger.rows(device, rows)
+    ledger.flush()
+    found = timing(tmp_path)["force_gauge"]
+    ledger.close()
+    assert (found["samples"], found["gaps"], found["overrun"]) == (3, 1, 0)
+    assert found["rate"] == pytest.approx(2000.0)
+    assert found["handed_after"]["50"] == pytest.approx(0.5e-3)
+
+
+def test_a_ledger_that_was_cut_off_is_read_up_to_there(tmp_path: Path) -> None:
+    ledger = Ledger(tmp_path, {})
+    ledger.rows("drive", Rows.of(np.arange(4), np.zeros(4), np.zeros(4), np.zeros(4), np.zeros(4)))
+    ledger.event(1.0, "fault", code=3)
+    ledger.close()
+    for name, cut in (("drive.bin", 9), ("events.jsonl", 0)):
+        data = (tmp_path / name).read_bytes()
+        (tmp_path / name).write_bytes(data[: len(data) - cut] + (b'{"time": 2' if not cut else b""))
+    assert read_samples(tmp_path, "drive")["counter"].tolist() == [0, 1, 2]
+    assert read_events(tmp_path) == [{"time": 1.0, "kind": "fault", "code": 3}]
