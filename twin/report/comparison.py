@@ -133,8 +133,8 @@ def _explained(c: Comparison) -> str:
         "R is Pearson's coefficient: blind to gain and offset, very sensitive to lag. The ceiling is the R between "
         "runs of one model whose starts differ by the sensors' noise. Lag above 0: the simulation is late. Gain is the "
         "slope of simulated on measured. Short windows restart the model from the measured state in each tenth of a "
-        f"second and take the rms error over 0.1 s; {passed} tenths were passed over because the fibre was slack or had just "
-        "caught, so that the pulley could not be seen.",
+        f"second and take the rms error over 0.1 s; {passed} tenths were passed over because the fibre was slack or "
+        "had just caught, so that the pulley could not be seen.",
         "caption",
     )
 
