@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 import os
+import shutil
 import sys
 import tempfile
 import threading
@@ -115,7 +116,7 @@ class ReplayedStand:
         self.loop.call_soon_threadsafe(self.loop.stop)
         self._thread.join()
         self.relay.end()
-        self.folder.rmdir()
+        shutil.rmtree(self.folder, ignore_errors=True)
 
 
 def _force_answers() -> Callable[[bytes], list[bytes]]:

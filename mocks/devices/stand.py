@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import shutil
 import tempfile
 import threading
 import time
@@ -192,6 +193,6 @@ class SimulatedStand:
         self.relay.end()
         for gauge in self.gauges.values():
             gauge.terminal.disconnect()
-        self.folder.rmdir()
+        shutil.rmtree(self.folder, ignore_errors=True)
         if self.ledger:
             self.ledger.close()
