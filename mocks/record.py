@@ -6,7 +6,7 @@ import argparse
 import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -174,6 +174,8 @@ def main_record(argv: Sequence[str] | None = None) -> int:
     try:
         hidden = parse_hidden(given.hide)
         stand = draw_stand(given.seed, _believed(given), errors=0.0 if given.exact_setup else 1.0)
+        if given.stick:
+            stand = replace(stand, true=stand.true.but(guide_friction_velocity=0.0))
         if given.campaign:
             from mocks.plant.campaign import write_campaign
 
@@ -214,6 +216,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--hide", action="append", default=[], metavar="NAME[:parameter=value,...]")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--exact-setup", action="store_true", help="the operator's values are the true ones")
+    parser.add_argument("--stick", action="store_true", help="the guide's dry friction truly sticks at rest")
     parser.add_argument("--campaign", action="store_true", help="six runs of 10 s instead of one")
     return parser
 

@@ -16,7 +16,8 @@ from mocks.effects import Effect, Size, everything
 from mocks.plant.campaign import draw_motions
 from mocks.plant.operator import draw_stand
 
-POINTS, WINDOWS = 3, 4
+POINTS, WINDOWS, SECONDS = 2, 6, 5.0
+RUNS = (1, 2, 4)  # of a campaign: gentle, snatching, loaded
 
 
 def main_size(effect: Effect) -> Size:
@@ -25,20 +26,20 @@ def main_size(effect: Effect) -> Size:
 
 
 def ladder(size: Size) -> list[float]:
-    """POINTS sizes over the range, even in the logarithm of the distance from the null where it is finite."""
+    """POINTS sizes well within the range, even in the logarithm of the distance from the null where it is finite."""
     null = size.null if np.isfinite(size.null) else 0.0
-    return [null + float(d) for d in np.geomspace(size.low - null, size.high - null, POINTS)]
+    return [null + float(d) for d in np.geomspace(size.low - null, size.high - null, 2 * POINTS + 1)[1::2]]
 
 
 def main() -> int:
     """One line of JSON per effect: {"name": [[size, strength], ...]}."""
-    stand, motions = draw_stand(0, errors=0.0), draw_motions(0)
+    stand, motions = draw_stand(0, errors=0.0), [draw_motions(0)[k] for k in RUNS]
     for effect in everything():
         if sys.argv[1:] and effect.name not in sys.argv[1:]:
             continue
         size = main_size(effect)
         measured = [
-            [value, round(strength(stand, {effect.name: {size.name: value}}, motions, windows=WINDOWS), 3)]
+            [value, round(strength(stand, {effect.name: {size.name: value}}, motions, SECONDS, WINDOWS), 3)]
             for value in ladder(size)
         ]
         print(json.dumps({effect.name: measured}), flush=True)

@@ -15,7 +15,7 @@ from mocks.battery.calibrate import main_size
 from mocks.effects import Effect, Size, Value, everything, find
 from mocks.plant.campaign import draw_motions
 from mocks.plant.motion import Motion
-from mocks.plant.operator import Stand, draw_stand
+from mocks.plant.operator import BASE, Stand, draw_stand
 from mocks.plant.rig import Rig
 from mocks.record import Noise
 
@@ -23,6 +23,8 @@ KINDS = ("single", "clean", "double", "outside")
 PER_CAUSE, CLEAN, DOUBLE, OUTSIDE = 5, 150, 60, 30
 STRENGTHS = (6.0, 1.5, 10.0, 3.0, 18.0)  # wanted, cause by cause in turn
 CLEAR = (5.0, 16.0)  # wanted range where two are hidden, or one outside the catalogue
+PULLS = dict(BASE) | {"force-gauge-scale": "weight_mass"}  # all forces and masses alike: only the priors tell
+MOST = 0.8  # of a value that a difference takes away
 HUM = {"fibre_force": 1.0, "weight_position": 5e-5, "drive_position": 5e-5}  # amplitude against that in N
 
 
@@ -50,7 +52,7 @@ class Case:
 
 def battery(seed: int, kinds: Sequence[str] = KINDS, share: float = 1.0) -> list[Case]:
     """All stands of a seed, mixed; share < 1 keeps that part of each kind (at least one of each)."""
-    plan = [entry for kind in kinds for entry in _some(_PLANS[kind](seed), share)]
+    plan = [entry for kind in kinds for entry in _some(_PLANS[kind](seed), share, seed)]
     order = np.random.default_rng([seed, 99]).permutation(len(plan))
     return [_case(seed, number, *plan[k]) for number, k in enumerate(order)]
 
@@ -58,9 +60,10 @@ def battery(seed: int, kinds: Sequence[str] = KINDS, share: float = 1.0) -> list
 Plan = tuple[str, tuple[tuple[str, float], ...], int]  # kind, (effect, wanted strength) ..., its own number
 
 
-def _some(plan: list[Plan], share: float) -> list[Plan]:
-    keep = max(1, round(share * len(plan)))
-    return [plan[k] for k in np.linspace(0, len(plan) - 1, keep).astype(int)]
+def _some(plan: list[Plan], share: float, seed: int) -> list[Plan]:
+    """A part of the plan, drawn, in its order."""
+    keep = np.random.default_rng([seed, 98]).permutation(len(plan))[: max(1, round(share * len(plan)))]
+    return [plan[k] for k in sorted(keep)]
 
 
 def _singles(seed: int) -> list[Plan]:
@@ -100,8 +103,8 @@ _PLANS = {"single": _singles, "clean": _cleans, "double": _doubles, "outside": _
 
 def _case(seed: int, number: int, kind: str, effects: tuple[tuple[str, float], ...], own: int) -> Case:
     rng = np.random.default_rng([seed, KINDS.index(kind), own, *(_key(name) for name, _ in effects)])
-    hidden = {name: draw_values(find(name), wanted, rng) for name, wanted in effects}
     stand = draw_stand(rng, draw_belief(rng), errors=1.0)
+    hidden = {name: draw_values(find(name), wanted, stand, rng) for name, wanted in effects}
     motions = tuple(draw_motions(rng))
     return Case(number, kind, hidden, dict(effects), stand, motions, draw_noise(rng), int(rng.integers(2**31)))
 
@@ -115,7 +118,7 @@ def draw_belief(rng: np.random.Generator) -> Rig:
     rig = Rig()
     if rng.random() < 0.5:
         return rig
-    changes = {"fibre_stiffness": 0.15, "fibre_damping": 0.25, "guide_friction": 0.3, "pulley_inertia": 0.25}
+    changes = {"fibre_stiffness": 0.15, "fibre_damping": 0.25, "guide_friction": 0.15, "pulley_inertia": 0.25}
     values = {name: float(f"{getattr(rig, name) * rng.uniform(1 - s, 1 + s):.2g}") for name, s in changes.items()}
     return rig.but(**values)
 
@@ -125,29 +128,44 @@ def draw_noise(rng: np.random.Generator) -> Noise:
     return Noise(x=5e-6 * rng.uniform(0.3, 1.0), u=6e-6 * rng.uniform(0.8, 1.2), F=0.12 * rng.uniform(0.8, 1.2))
 
 
-def draw_values(effect: Effect, wanted: float, rng: np.random.Generator) -> dict[str, Value]:
+def draw_values(effect: Effect, wanted: float, stand: Stand, rng: np.random.Generator) -> dict[str, Value]:
     """Parameters of an effect that shows about as strongly as wanted; places, phases, times over their ranges."""
     main = main_size(effect)
     values = {s.name: _free(s, rng) for s in effect.sizes if s is not main}
-    size = size_for(effect.name, wanted)
-    if main.signed and rng.random() < 0.5:
-        size = 2.0 * main.null - size
-    values[main.name] = size * HUM.get(str(values.get("signal")), 1.0)
+    distance = _distance(effect.name, wanted, stand)
+    sign = -1.0 if main.signed and rng.random() < 0.5 else 1.0
+    values[main.name] = _null(main) + sign * distance * HUM.get(str(values.get("signal")), 1.0)
     return values
+
+
+def _distance(name: str, wanted: float, stand: Stand) -> float:
+    """How far from the null: for a base parameter `wanted` of its stated sigmas (it shows by its pull alone)."""
+    if name not in PULLS:
+        return abs(size_for(name, wanted) - _null(main_size(find(name))))
+    sigma, value = stand.uncertainty[PULLS[name]], float(getattr(stand.believed, PULLS[name]))
+    if name == "force-gauge-scale":
+        return wanted * sigma / value
+    most = MOST * value
+    return min(wanted * sigma, most) * (180.0 / math.pi if name == "incline-angle" else 1.0)
 
 
 def _free(size: Size, rng: np.random.Generator) -> Value:
     return str(rng.choice(size.choices)) if size.choices else float(rng.uniform(size.low, size.high))
 
 
+def _null(main: Size) -> float:
+    """The null where it is finite; what has none (levels, places) is far from 0."""
+    return main.null if math.isfinite(main.null) else 0.0
+
+
 def size_for(name: str, wanted: float) -> float:
-    """Size at which an effect shows about as strongly as wanted: a power law through the measured table, within it."""
+    """Size at which an effect shows about as strongly as wanted: a power law through the measured table, in range."""
     table, main = np.array(_measured()[name]), main_size(find(name))
-    null = main.null if np.isfinite(main.null) else 0.0
-    sizes, strengths = np.log(np.abs(table[:, 0] - null)), np.log(table[:, 1])
-    power, factor = np.polyfit(sizes, strengths, 1)
+    null = _null(main)
+    power, factor = np.polyfit(np.log(np.abs(table[:, 0] - null)), np.log(table[:, 1]), 1)
     wished = (math.log(wanted) - factor) / power
-    return null + math.exp(min(max(wished, sizes.min()), sizes.max()))
+    ends = (math.log(abs(main.low - null)), math.log(abs(main.high - null)))
+    return null + math.exp(min(max(wished, min(ends)), max(ends)))
 
 
 @cache

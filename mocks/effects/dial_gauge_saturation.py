@@ -16,7 +16,7 @@ def act(world: World, level: float) -> None:
 EFFECT = Effect(
     "dial-gauge-saturation",
     "dial-gauge",
-    (Size("level", "m", 0.026, 0.025, 0.06, null=math.inf),),
+    (Size("level", "m", 0.026, 0.02, 0.09, null=math.inf),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

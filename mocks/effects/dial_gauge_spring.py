@@ -12,7 +12,7 @@ def act(world: World, stiffness: float) -> None:
 EFFECT = Effect(
     "dial-gauge-spring",
     "weight",
-    (Size("stiffness", "N/m", 60.0, 3.0, 150.0),),
+    (Size("stiffness", "N/m", 80.0, 5.0, 300.0),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

@@ -12,6 +12,6 @@ def act(world: World, compliance: float) -> None:
 EFFECT = Effect(
     "drive-compliance",
     "drive",
-    (Size("compliance", "m/N", 4e-06, 2e-07, 1.2e-05),),
+    (Size("compliance", "m/N", 4e-06, 3e-07, 2e-05),),
     act,
 )

@@ -15,7 +15,7 @@ def act(world: World, position: float) -> None:
 EFFECT = Effect(
     "end-stop",
     "guide",
-    (Size("position", "m", 0.024, 0.02, 0.08),),
+    (Size("position", "m", 0.024, 0.02, 0.12),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

@@ -13,7 +13,7 @@ EFFECT = Effect(
     "fibre-creep",
     "fibre",
     (
-        Size("compliance", "m/N", 4e-06, 2e-07, 1e-05),
+        Size("compliance", "m/N", 2e-05, 2e-06, 0.0001),
         Size("time_constant", "s", 0.6, 0.2, 2.0, steady=True),
     ),
     act,

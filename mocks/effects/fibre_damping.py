@@ -12,7 +12,7 @@ def act(world: World, difference: float) -> None:
 EFFECT = Effect(
     "fibre-damping",
     "fibre",
-    (Size("difference", "N*s/m", 15.0, 9.0, 25.0, signed=True),),
+    (Size("difference", "N*s/m", 15.0, 2.0, 22.0, signed=True),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

@@ -12,7 +12,7 @@ def act(world: World, coefficient: float) -> None:
 EFFECT = Effect(
     "fibre-hardening",
     "fibre",
-    (Size("coefficient", "1/m", 150.0, 10.0, 400.0),),
+    (Size("coefficient", "1/m", 30.0, 1.0, 60.0),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

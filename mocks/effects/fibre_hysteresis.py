@@ -13,7 +13,7 @@ EFFECT = Effect(
     "fibre-hysteresis",
     "fibre",
     (
-        Size("stiffness", "N/m", 5000.0, 400.0, 12000.0),
+        Size("stiffness", "N/m", 10000.0, 500.0, 40000.0),
         Size("yield_elongation", "m", 0.0003, 0.0001, 0.0005, steady=True),
     ),
     act,

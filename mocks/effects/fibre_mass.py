@@ -16,6 +16,6 @@ def act(world: World, mass: float) -> None:
 EFFECT = Effect(
     "fibre-mass",
     "fibre",
-    (Size("mass", "kg", 0.03, 0.004, 0.1),),
+    (Size("mass", "kg", 0.3, 0.02, 2.0),),
     act,
 )

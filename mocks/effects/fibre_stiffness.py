@@ -12,7 +12,7 @@ def act(world: World, difference: float) -> None:
 EFFECT = Effect(
     "fibre-stiffness",
     "fibre",
-    (Size("difference", "N/m", 6000.0, 5000.0, 12000.0, signed=True),),
+    (Size("difference", "N/m", 10000.0, 1700.0, 17000.0, signed=True),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

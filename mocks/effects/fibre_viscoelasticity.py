@@ -13,7 +13,7 @@ EFFECT = Effect(
     "fibre-viscoelasticity",
     "fibre",
     (
-        Size("stiffness", "N/m", 6000.0, 500.0, 15000.0),
+        Size("stiffness", "N/m", 10000.0, 500.0, 40000.0),
         Size("time_constant", "s", 0.05, 0.02, 0.2, steady=True),
     ),
     act,

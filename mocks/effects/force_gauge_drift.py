@@ -12,7 +12,7 @@ def act(world: World, rate: float) -> None:
 EFFECT = Effect(
     "force-gauge-drift",
     "force-gauge",
-    (Size("rate", "N/s", 0.2, 0.01, 0.5, signed=True),),
+    (Size("rate", "N/s", 0.5, 0.02, 2.0, signed=True),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

@@ -14,6 +14,6 @@ def act(world: World, mass: float) -> None:
 EFFECT = Effect(
     "force-gauge-inertia",
     "force-gauge",
-    (Size("mass", "kg", 0.15, 0.01, 0.5),),
+    (Size("mass", "kg", 0.4, 0.03, 2.0),),
     act,
 )

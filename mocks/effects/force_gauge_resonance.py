@@ -17,7 +17,7 @@ EFFECT = Effect(
     "force-gauge-resonance",
     "force-gauge",
     (
-        Size("frequency", "Hz", 120.0, 60.0, 600.0, null=math.inf),
+        Size("frequency", "Hz", 120.0, 60.0, 700.0, null=math.inf),
         Size("damping_ratio", "-", 0.1, 0.03, 0.3, steady=True),
     ),
     act,

@@ -16,7 +16,7 @@ def act(world: World, level: float) -> None:
 EFFECT = Effect(
     "force-gauge-saturation",
     "force-gauge",
-    (Size("level", "N", 30.0, 24.0, 240.0, null=math.inf),),
+    (Size("level", "N", 30.0, 24.0, 350.0, null=math.inf),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

@@ -12,7 +12,7 @@ def act(world: World, gain: float) -> None:
 EFFECT = Effect(
     "force-gauge-scale",
     "force-gauge",
-    (Size("gain", "-", 1.03, 1.003, 1.1, null=1.0),),
+    (Size("gain", "-", 1.06, 1.01, 1.15, null=1.0),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

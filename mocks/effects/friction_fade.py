@@ -1,19 +1,19 @@
-"""The guide's dry friction fades as the stand warms up, from run start on."""
+"""A cold guide rubs more: its dry friction has an excess at the run's start that fades as the stand warms up."""
 
 from mocks.effects import Effect, Size
 from mocks.plant.world import World
 
 
-def act(world: World, fade: float, time_constant: float) -> None:
-    """Sets the share that fades and how fast."""
-    world.physics.fade, world.physics.fade_time = fade, time_constant
+def act(world: World, excess: float, time_constant: float) -> None:
+    """Sets the excess and how fast it fades."""
+    world.physics.fade, world.physics.fade_time = excess, time_constant
 
 
 EFFECT = Effect(
     "friction-fade",
     "guide",
     (
-        Size("fade", "-", 0.5, 0.15, 0.8),
+        Size("excess", "N", 4.0, 0.4, 16.0),
         Size("time_constant", "s", 4.0, 2.0, 8.0, steady=True),
     ),
     act,

@@ -16,7 +16,7 @@ EFFECT = Effect(
     "guide-cogging",
     "guide",
     (
-        Size("amplitude", "N", 2.0, 0.3, 4.0),
+        Size("amplitude", "N", 2.0, 0.3, 8.0),
         Size("pitch", "m", 0.012, 0.008, 0.02, steady=True),
         Size("phase", "rad", 0.5, -3.1, 3.1, steady=True),
     ),

@@ -12,7 +12,7 @@ def act(world: World, difference: float) -> None:
 EFFECT = Effect(
     "guide-coulomb-friction",
     "guide",
-    (Size("difference", "N", 1.0, 0.95, 3.0, signed=True),),
+    (Size("difference", "N", 2.0, 0.3, 2.4, signed=True),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre", "linear-drive"),
 )

@@ -12,7 +12,7 @@ def act(world: World, coefficient: float) -> None:
 EFFECT = Effect(
     "guide-load-friction",
     "guide",
-    (Size("coefficient", "1/N", 0.002, 0.0003, 0.005),),
+    (Size("coefficient", "1/N", 0.0004, 5e-05, 0.0015),),
     act,
     depends_on=("fibre_force",),
     systems=("weight-fibre-pulley-drive", "weight-fibre"),

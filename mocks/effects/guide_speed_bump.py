@@ -17,7 +17,7 @@ EFFECT = Effect(
     "guide-speed-bump",
     "guide",
     (
-        Size("force", "N", 2.0, 0.2, 6.0),
+        Size("force", "N", 4.0, 0.3, 16.0),
         Size("speed", "m/s", 0.12, 0.08, 0.2, steady=True),
     ),
     act,

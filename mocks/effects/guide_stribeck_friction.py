@@ -13,7 +13,7 @@ EFFECT = Effect(
     "guide-stribeck-friction",
     "guide",
     (
-        Size("excess", "N", 2.0, 0.2, 4.0),
+        Size("excess", "N", 4.0, 0.3, 16.0),
         Size("velocity", "m/s", 0.03, 0.01, 0.08, steady=True),
     ),
     act,

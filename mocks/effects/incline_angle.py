@@ -17,7 +17,7 @@ def act(world: World, difference: float) -> None:
 EFFECT = Effect(
     "incline-angle",
     "weight",
-    (Size("difference", "deg", 1.5, 1.0, 4.0, signed=True),),
+    (Size("difference", "deg", 2.0, 0.3, 5.0, signed=True),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

@@ -13,7 +13,7 @@ EFFECT = Effect(
     "pulley-eccentricity",
     "pulley",
     (
-        Size("amplitude", "m", 0.0002, 1e-05, 0.0008),
+        Size("amplitude", "m", 0.0003, 1e-05, 0.0015),
         Size("phase", "rad", 0.8, -3.1, 3.1, steady=True),
     ),
     act,

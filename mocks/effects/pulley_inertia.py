@@ -12,6 +12,6 @@ def act(world: World, difference: float) -> None:
 EFFECT = Effect(
     "pulley-inertia",
     "pulley",
-    (Size("difference", "kg*m^2", 0.0001, 7e-05, 0.0004),),
+    (Size("difference", "kg*m^2", 0.00015, 2e-05, 0.0003),),
     act,
 )

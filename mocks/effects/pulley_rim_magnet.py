@@ -17,7 +17,7 @@ EFFECT = Effect(
     "pulley-rim-magnet",
     "pulley",
     (
-        Size("force", "N", 1.0, 0.1, 3.0),
+        Size("force", "N", 2.0, 0.1, 6.0),
         Size("poles", "-", 24.0, 16.0, 40.0, steady=True),
         Size("phase", "rad", 0.7, -3.1, 3.1, steady=True),
     ),

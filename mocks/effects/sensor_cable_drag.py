@@ -17,7 +17,7 @@ EFFECT = Effect(
     "sensor-cable-drag",
     "guide",
     (
-        Size("force", "N", 4.0, 0.5, 8.0),
+        Size("force", "N", 4.0, 0.05, 6.0),
         Size("reach", "m", 0.02, 0.012, 0.028, steady=True),
     ),
     act,

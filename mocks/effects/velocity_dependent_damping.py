@@ -12,7 +12,7 @@ def act(world: World, slope: float, threshold: float) -> None:
 EFFECT = Effect(
     "velocity-dependent-damping",
     "fibre",
-    (Size("slope", "N*s^2/m^2", 385.0, 60.0, 800.0), Size("threshold", "m/s", 0.4, 0.15, 0.45, steady=True)),
+    (Size("slope", "N*s^2/m^2", 385.0, 20.0, 600.0), Size("threshold", "m/s", 0.4, 0.15, 0.45, steady=True)),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

@@ -13,7 +13,7 @@ EFFECT = Effect(
     "velocity-dependent-stiffness",
     "fibre",
     (
-        Size("slope", "N*s/m^2", 20000.0, 3000.0, 60000.0),
+        Size("slope", "N*s/m^2", 15000.0, 500.0, 40000.0),
         Size("threshold", "m/s", 0.2, 0.05, 0.25, steady=True),
     ),
     act,

@@ -14,7 +14,7 @@ def act(world: World, difference: float) -> None:
 EFFECT = Effect(
     "weight-mass",
     "weight",
-    (Size("difference", "kg", 0.2, 0.1, 0.4, signed=True),),
+    (Size("difference", "kg", 0.25, 0.03, 0.5, signed=True),),
     act,
     systems=("weight-fibre-pulley-drive", "weight-fibre"),
 )

@@ -92,7 +92,7 @@ def guide_force(t, y, tension, bristle, p, tables):  # type: ignore[no-untyped-d
         dry += look(tables[PATCH], u, -0.08, 0.28)
         force += look(tables[GUIDE], u, -0.08, 0.28) + look(tables[SPEED], v, -3.0, 3.0)
     if p.fade != 0.0:
-        dry *= 1.0 - p.fade * (1.0 - math.exp(-t / p.fade_time))
+        dry += p.fade * math.exp(-t / p.fade_time)
     if p.pulse != 0.0:
         dry *= 1.0 + p.pulse * math.sin(2.0 * math.pi * p.pulse_frequency * t + p.pulse_phase)
     return force + dry * bristle + (p.viscous + p.quadratic * abs(v)) * v + p.spring * u

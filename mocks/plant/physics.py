@@ -71,7 +71,7 @@ class Physics:
     # drive
     compliance: float = 0.0
     # outside any catalogue
-    fade: float = 0.0
+    fade: float = 0.0  # N of friction at the start that fades
     fade_time: float = 1.0
     pulse: float = 0.0
     pulse_frequency: float = 1.0

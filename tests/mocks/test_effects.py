@@ -146,9 +146,9 @@ def test_guide_forces_follow_their_definitions() -> None:
     for name, law in {
         "guide-viscous-drag": lambda v: 8.0 * v,
         "guide-quadratic-drag": lambda v: 15.0 * v * abs(v),
-        "guide-stribeck-friction": lambda v: 2.0 * np.exp(-((v / 0.03) ** 2)) * np.sign(v),
+        "guide-stribeck-friction": lambda v: 4.0 * np.exp(-((v / 0.03) ** 2)) * np.sign(v),
         "guide-friction-asymmetry": lambda v: 0.75 * np.ones_like(v),
-        "guide-coulomb-friction": lambda v: np.sign(v),
+        "guide-coulomb-friction": lambda v: 2.0 * np.sign(v),
     }.items():
         truth = taut(name).truth
         v, fast = truth[:, V], np.abs(truth[:, V]) > 0.02
@@ -171,7 +171,7 @@ def test_the_end_stop_stops() -> None:
 def test_the_plungers_spring_shows_at_the_holds() -> None:
     held = slice(at(0.42), at(0.48))
     more = (taut("dial-gauge-spring").F - run(TAUT).F)[held].mean()
-    assert more == pytest.approx(60.0 * 0.040, rel=0.05)
+    assert more == pytest.approx(80.0 * 0.040, rel=0.05)
 
 
 def test_fibre_causes_change_the_tension_as_defined() -> None:
@@ -260,9 +260,9 @@ def test_gauge_causes_follow_their_definitions() -> None:
     assert np.allclose(run(STRONG, "dial-gauge-delay").u[n:], plain.u[:-n], atol=1e-12)
     assert np.allclose(run(STRONG, "force-gauge-delay").F[n:], plain.F[:-n], atol=1e-9)
     assert np.allclose(run(STRONG, "dial-gauge-scale").u, 1.01 * plain.u)
-    assert np.allclose(run(STRONG, "force-gauge-scale").F, 1.03 * plain.F)
+    assert np.allclose(run(STRONG, "force-gauge-scale").F, 1.06 * plain.F)
     assert np.allclose(run(STRONG, "force-gauge-offset").F, plain.F + 2.0)
-    assert np.allclose(run(STRONG, "force-gauge-drift").F, plain.F + 0.2 * plain.time)
+    assert np.allclose(run(STRONG, "force-gauge-drift").F, plain.F + 0.5 * plain.time)
     assert run(STRONG, "force-gauge-saturation").F.max() == 30.0
     assert run(STRONG, "dial-gauge-saturation").u.max() == 0.026
     for name, tau, signal in (("dial-gauge-lag", 3e-3, "u"), ("force-gauge-lag", 3e-3, "F")):
@@ -276,7 +276,7 @@ def test_gauge_causes_follow_their_definitions() -> None:
 def test_the_gauges_own_mass_pulls_with_the_drive() -> None:
     plain, hidden = run(TAUT), run(TAUT, "force-gauge-inertia")
     acceleration = np.gradient(plain.truth[:, 1], GRID)
-    assert np.allclose(hidden.F - plain.F, 0.15 * acceleration, atol=0.01)
+    assert np.allclose(hidden.F - plain.F, 0.4 * acceleration, atol=0.02)
 
 
 def test_hum_goes_where_it_is_told() -> None:
