@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from stand.clock.arrivals import Reads
 from stand.clock.gauge import GaugeFit, fit_gauge
 from stand.clock.model import RATE, Aligned, Clock, Float, GaugeStream, Loss, RingStream, Streams
+from stand.clock.polls import polls_on_grid
 from stand.clock.resample import fill, interpolate, noise_of, smooth
 from stand.clock.ring import fit_ring
 from stand.codecs.codec import Frames, load_codec
@@ -45,7 +46,8 @@ def align(streams: Streams, stand: Stand, origin: float, count: int, word_order:
     rig without a drive. word_order: what the drive's probe found, else the profile's. InputError where a stream is
     too short for a clock.
     """
-    tracks = {name: _track(name, stream, stand, word_order) for name, stream in streams.items()}
+    plain = [name for name, stream in streams.items() if isinstance(stream, RingStream) and _is_plain(stand)]
+    tracks = {n: _track(n, stream, stand, word_order) for n, stream in streams.items() if n not in plain}
     grid = origin + np.arange(count) / RATE
     quality = np.zeros(count, np.uint8)
     channels: dict[str, Float] = {}
@@ -59,6 +61,16 @@ def align(streams: Streams, stand: Stand, origin: float, count: int, word_order:
         zeros[channel] = float(np.median(values[: round(REST * RATE)])) if name != "force_gauge" else 0.0
         channels[channel] = values - zeros[channel]
         uncertainty[channel] = sigma
+    for name in plain:
+        channel, stream = CHANNELS[name], streams[name]
+        assert isinstance(stream, RingStream)
+        scale, speed_scale = _scales(stand)
+        values, sigma, missing = polls_on_grid(
+            stream, scale, speed_scale, stand.drive.latency, grid, 2.5 / stand.drive.poll_rate
+        )
+        quality[missing] |= np.uint8(_BITS[name])
+        zeros[channel] = float(np.median(values[: round(REST * RATE)]))
+        channels[channel], uncertainty[channel] = values - zeros[channel], sigma
     return Aligned(
         origin=origin,
         time=np.arange(count) / RATE,
@@ -69,7 +81,18 @@ def align(streams: Streams, stand: Stand, origin: float, count: int, word_order:
         zeros=zeros,
         losses=tuple(loss for track in tracks.values() for loss in track.losses),
         counts={name: track.counts for name, track in tracks.items()},
+        derived=frozenset(CHANNELS[name] for name in plain),
     )
+
+
+def _is_plain(stand: Stand) -> bool:
+    """Whether the drive is polled for its position, having no counted ring."""
+    return load_profile(stand.drive.profile).trace.kind == "none"
+
+
+def _scales(stand: Stand) -> tuple[float, float]:
+    units, direction = load_profile(stand.drive.profile).units, stand.drive.direction
+    return direction * units.si("position"), direction * units.si("velocity")
 
 
 def _track(name: str, stream: GaugeStream | RingStream, stand: Stand, word_order: str | None) -> Track:

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from stand.block import Block
-from stand.clock import GaugeStream, LiveAligner, LiveBlock, align
+from stand.clock import GaugeStream, LiveAligner, LiveBlock, RingStream, align
 from stand.clock.lines import line_below, line_between
+from stand.clock.polls import pack_poll
 from stand.clock.resample import fill, interpolate, smooth
 from stand.codecs.codec import Feeder, load_codec
 from stand.drive.profile import load_profile
@@ -61,6 +62,21 @@ def test_the_same_bytes_and_times_give_the_same_grid_bit_for_bit() -> None:
     first, second = (align(wires.streams, wires.stand, wires.origin, wires.count) for _ in range(2))
     for name, values in first.channels.items():
         np.testing.assert_array_equal(values, second.channels[name])
+
+
+def test_plain_polling_is_labelled_derived_and_within_what_its_brackets_say() -> None:
+    wires = draw(1)
+    drive = wires.stand.drive.model_copy(update={"profile": "mr-je-c"})
+    time = wires.origin + np.arange(-5, 1010) * 0.01
+    x = np.interp(time - wires.origin, np.arange(wires.count) / 2000, wires.truth["drive"])
+    v = np.interp(time - wires.origin, np.arange(wires.count) / 2000, np.gradient(wires.truth["drive"], 5e-4))
+    polls = np.array([pack_poll(round(a * 1e6), round(b * 1e6)) for a, b in zip(x, v, strict=True)])
+    stream = RingStream(polls, time - 1e-4, time + 1e-4)
+    stand = wires.stand.model_copy(update={"drive": drive})
+    aligned = align({"drive": stream}, stand, wires.origin, wires.count)
+    assert aligned.derived == {"drive_position"}
+    error = aligned.channels["drive_position"] - (wires.truth["drive"] - wires.truth["drive"][0])
+    assert np.sqrt(np.mean(error**2)) < 2 * aligned.uncertainty["drive_position"]
 
 
 def test_a_stream_too_short_for_a_clock_is_refused() -> None:

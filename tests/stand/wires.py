@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stand.clock import GaugeStream, RingStream
+from stand.clock.aim import Aim
 from stand.config import Stand, load_stand
 from stand.excitation.plan import Plan, plan
 from stand.excitation.spec import Excitation, Shape
@@ -151,13 +152,25 @@ def _ring(
     true = position(epoch + period * np.arange(count))
     encoder = np.round((true + rng.normal(0, 0.5e-6, count)) / 0.5e-6) * 0.5e-6
     samples = np.round(encoder * 1e7).astype(np.int64)
-    n = int((seconds - 0.05) * 100)
-    request = HOST + 0.02 + 0.01 * np.arange(n) + rng.uniform(-1.2e-3, 1.2e-3, n)
-    read = request + 70e-6 + rng.exponential(40e-6, n)
-    response = read + 70e-6 + rng.exponential(40e-6, n)
+    request, read, response = _polls(rng, epoch, period, int((seconds - 0.05) * 100))
     heads = np.floor((read - epoch) / period).astype(np.int64) + 1
     polls = np.array([_poll(int(h), samples) for h in heads], dtype=np.uint16)
     return RingStream(polls, request, response)
+
+
+def _polls(rng: np.random.Generator, epoch: float, period: float, count: int) -> tuple[Float, Float, Float]:
+    """When each poll is asked, read in the drive and answered, as the reader aims them; s [count] each."""
+    aim, due = Aim(0.01, 1e-3, 1.2e-3, int(rng.integers(1 << 30))), HOST + 0.02
+    found = []
+    for _ in range(count):
+        request = aim.next(due) + 50e-6 + rng.exponential(30e-6)
+        read = request + 70e-6 + rng.exponential(40e-6)
+        response = read + 70e-6 + rng.exponential(40e-6)
+        found.append((request, read, response))
+        aim.polled(int((read - epoch) / period) + 1, request, response)
+        due += 0.01
+    request, read, response = np.array(found).T
+    return request, read, response
 
 
 def _poll(head: int, samples: NDArray[np.int64]) -> list[int]:
