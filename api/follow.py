@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+from api.blocks import joined
 from api.experiment import Experiment, State
 from api.latency import Latency
 from stand.clock import LiveBlock
-from stand.errors import StandError
 from stand.runs import Failed, Finished, Health, Outcome, Phase, Progress, Trip
 
 if TYPE_CHECKING:
+    from api.twins import Beside
     from stand.runs import Event
-    from twin.live import LiveScore, LiveTwin
+    from twin.live import LiveScore
 
 #: the record is published this often while only time goes on, s
 EVERY = 0.25
@@ -36,14 +35,14 @@ class Follower:
     def __init__(
         self,
         experiment: Experiment,
-        twin: LiveTwin | None,
+        beside: Beside | None,
         *,
         changed: Callable[[Experiment], None],
         sampled: Callable[[LiveBlock, LiveScore | None, float], None],
         health: Callable[[Health], None] = lambda health: None,
         now: Callable[[], float] = time.monotonic,
     ) -> None:
-        self.experiment, self.twin, self.latency = experiment, twin, Latency()
+        self.experiment, self._beside, self.latency = experiment, beside, Latency()
         self._changed, self._sampled, self._health, self._now = changed, sampled, health, now
         self._end = State.FAILED
         self._waiting: list[LiveBlock] = []
@@ -100,28 +99,12 @@ class Follower:
             self._serve(joined(self._waiting))
             self._waiting.clear()
 
-    def _score(self, block: LiveBlock) -> LiveScore | None:
-        """What the twin says; a twin that gives up is let go, the run goes on."""
-        if self.twin is None:
-            return None
-        try:
-            return self.twin.push(block.time, block.x, block.u, block.F)
-        except StandError as error:
-            self.twin = None
-            self.tell(note=f"the twin gave up: {error}")
-            return None
-
     def _serve(self, block: LiveBlock) -> None:
-        score = self._score(block)
+        score = self._beside.push(block) if self._beside is not None else None
         span = float(block.time[-1] - block.time[0])
         self._sampled(block, score, self.latency.add(self._now() - block.newest_arrival + span))
         elapsed = float(block.time[-1])
+        if self._beside is not None and self._beside.note != self.experiment.note:
+            self.tell(note=self._beside.note)
         if not self.experiment.streaming or elapsed - self.experiment.elapsed > EVERY:
             self.tell(streaming=True, elapsed=elapsed, latency=self.latency.quantiles())
-
-
-def joined(blocks: Sequence[LiveBlock]) -> LiveBlock:
-    """Consecutive blocks as one."""
-    columns = ("time", "x", "u", "F", "quality")
-    arrays = {name: np.concatenate([getattr(block, name) for block in blocks]) for name in columns}
-    return LiveBlock(first=blocks[0].first, newest_arrival=blocks[-1].newest_arrival, **arrays)

@@ -23,12 +23,11 @@ from api.orders import Order, checked, make_plan
 from api.problem import Conflict, NotFound
 from api.runs import Runs
 from api.steps import do_step
-from api.twins import make_twin, store
+from api.twins import Beside, make_twin, store
 
 if TYPE_CHECKING:
     from stand.config import Stand
     from stand.runs import Health, RunHandle
-    from twin.live import LiveTwin
 
 #: the devices are asked for their status at this interval while someone watches and nothing runs, s
 STATUS_EVERY = 10.0
@@ -104,7 +103,7 @@ class Operator:
         self.hub.clear_past()
         self._changed(experiment)
         self.jobs.hold(True)
-        given_on = (experiment, self._handle, lambda: make_twin(model, setup), tuple(campaign))
+        given_on = (experiment, self._handle, Beside(lambda: make_twin(model, setup)), tuple(campaign))
         self._thread = threading.Thread(target=self._follow, args=given_on, daemon=True)
         self._thread.start()
         return experiment
@@ -170,14 +169,11 @@ class Operator:
             remedy = "See to the cause, then reset the stand: nothing resumes by itself"
             raise Conflict("the stand was stopped and stays stopped", where="stand", value=self._tripped, remedy=remedy)
 
-    def _follow(
-        self, experiment: Experiment, handle: RunHandle, twinned: Callable[[], LiveTwin], campaign: Sequence[Path]
-    ) -> None:
-        """In a thread of its own. The twin is made here: it may have to compile, while the run connects."""
+    def _follow(self, experiment: Experiment, handle: RunHandle, beside: Beside, campaign: Sequence[Path]) -> None:
+        """From the first event to the work after the run; in a thread of its own."""
         stream = Stream(self.hub, experiment.id)
-        follower = Follower(experiment, None, changed=self._changed, sampled=stream.sampled, health=self._health)
+        follower = Follower(experiment, beside, changed=self._changed, sampled=stream.sampled, health=self._health)
         try:
-            _give_twin(follower, twinned)
             last = follower.follow(handle.events())
             self._tripped = last.why if last.state in (State.TRIPPED, State.EMERGENCY) else ""
         except Exception as error:
@@ -187,12 +183,12 @@ class Operator:
         finally:
             self._busy.release()
             self.jobs.hold(False)
-        self._afterwards(last, follower.twin, campaign)
+        self._afterwards(last, beside, campaign)
 
-    def _afterwards(self, last: Experiment, twin: LiveTwin | None, campaign: Sequence[Path]) -> None:
+    def _afterwards(self, last: Experiment, beside: Beside, campaign: Sequence[Path]) -> None:
         closed = self.runs.path(last.run) if last.run is not None and last.state is not State.FAILED else None
         if closed is not None:
-            store(closed, twin)
+            store(closed, beside)
         self.hub.publish_state("runs", {"newest": last.run})
         if closed is not None:
             self.jobs.submit("compare", [closed])
@@ -232,11 +228,3 @@ class Operator:
             self._tell_stand("disconnected", resting(self.stand, "disconnected"), str(error))
         finally:
             self._busy.release()
-
-
-def _give_twin(follower: Follower, twinned: Callable[[], LiveTwin]) -> None:
-    """A run whose twin can't be made goes on without one, and says so."""
-    try:
-        follower.twin = twinned()
-    except Exception as error:
-        follower.tell(note=f"no twin beside this run: {error}")

@@ -18,6 +18,7 @@ from api.follow import Follower
 from api.live import score_view
 
 if TYPE_CHECKING:
+    from api.twins import Beside
     from stand.clock import LiveBlock
     from stand.config import Stand
     from stand.runs import RunHandle, RunOrder
@@ -29,18 +30,19 @@ GOOD = frozenset({State.FINISHED, State.STOPPED})
 
 def run_and_watch(
     stand: Stand, order: RunOrder, *, model: str | None, seconds: float, title: str
-) -> tuple[Experiment, Any]:
-    """Run an order to its end: the last record and the twin that ran beside. Ctrl-C stops in good order."""
-    from api.twins import make_twin
+) -> tuple[Experiment, Beside | None]:
+    """Run an order to its end: the last record and the twin beside. Ctrl-C stops in good order."""
+    from api.twins import Beside, make_twin
     from stand.runs import PHASES, start
 
-    twin = make_twin(model, order.setup or stand.setup) if model else None
+    setup = order.setup or stand.setup
+    beside = Beside(lambda: make_twin(model, setup)) if model else None
     handle = start(stand, order)
     experiment = Experiment("run", {}, model or "", "", PHASES, seconds)
     with Live(console=err, auto_refresh=False, transient=False) as live:
         screen = _Screen(live, title)
-        follower = Follower(experiment, twin, changed=screen.changed, sampled=screen.sampled)
-        return _follow(follower, handle), twin
+        follower = Follower(experiment, beside, changed=screen.changed, sampled=screen.sampled)
+        return _follow(follower, handle), beside
 
 
 def _follow(follower: Follower, handle: RunHandle) -> Experiment:

@@ -37,9 +37,11 @@ def command(
     with SimulatedStand(("replay", str(recording), "--speed", speed)) as mock:
         order = RunOrder(folder=out, replay=True, seconds=seconds, speed=factor, inject=recording if inject else None)
         title = f"replay of {recording.name}"
-        last, twin = run_and_watch(rig.with_links(mock.announcement), order, model=model, seconds=seconds, title=title)
+        last, beside = run_and_watch(
+            rig.with_links(mock.announcement), order, model=model, seconds=seconds, title=title
+        )
     path = check_end(last, out)
-    store(path, twin)
+    store(path, beside)
     console.print(f"recording   {path}")
     write_json({"recording": str(path), "replayed": str(recording), **compare_and_tell(path)}, json)
 

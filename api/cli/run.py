@@ -63,9 +63,9 @@ def execute(order: Order, rig: Any, folder: Path | None, *, title: str = "") -> 
     folder.mkdir(parents=True, exist_ok=True)
     wanted = RunOrder(excitation=excitation, setup=setup, folder=folder, comment=order.comment)
     name = title or f"{excitation.shape} {excitation.frequency:g} Hz {1e3 * excitation.amplitude:g} mm"
-    last, twin = run_and_watch(rig, wanted, model=order.model, seconds=float(plan.duration), title=name)
+    last, beside = run_and_watch(rig, wanted, model=order.model, seconds=float(plan.duration), title=name)
     path = check_end(last, folder)
-    store(path, twin)
+    store(path, beside)
     out.print(f"recording   {path}")
     done = compare_and_tell(path)
     return {"recording": str(path), "experiment": last.view(), **done}
