@@ -76,11 +76,12 @@ def spread(k, d0, d1, d2, d3, bxx, bxy, byx, byy):  # type: ignore[no-untyped-de
 
 @compiled(
     "void(float64[::1], float64, float64, boolean, float64[::1], float64[::1], float64[::1], float64[:,::1],"
-    "float64[::1], float64[:,::1])",
+    "float64[::1], float64[:,::1], float64[:,::1])",
     fastmath=_FAST,
 )
-def element(c, length, g, derive, q, v, a, lin, f, k):  # type: ignore[no-untyped-def]
-    """One element's inertia, bending and axial forces f [8] and tangent k [8, 8]; q, v, a: its nodes', [8]."""
+def element(c, length, g, derive, q, v, a, lin, f, k, work):  # type: ignore[no-untyped-def]
+    """One element's inertia, bending and axial forces f [8] and tangent k [8, 8]; q, v, a: its nodes', [8];
+    work [5, 8]."""
     tau, drag = c[TAU], c[DRAG]
     for i in range(4):
         fx, fy = 0.0, 0.0
@@ -95,45 +96,54 @@ def element(c, length, g, derive, q, v, a, lin, f, k):  # type: ignore[no-untype
                 k[2 * i, 2 * j] = k[2 * i + 1, 2 * j + 1] = lin[8 + i, j]
                 k[2 * i, 2 * j + 1] = k[2 * i + 1, 2 * j] = 0.0
     at = int(c[SHAPES])
-    d, slope, p, own = np.empty((GAUSS, 4)), np.empty((GAUSS, 2)), np.empty((GAUSS, 2)), np.empty(GAUSS)
     mean = 0.0
-    for i in range(GAUSS):
-        d[i, 0], d[i, 1], d[i, 2], d[i, 3] = c[at + 1] / length, c[at + 2], c[at + 3] / length, c[at + 4]
-        w = c[at]
+    for i in range(GAUSS):  # work[i]: slopes of the shape functions, w r', the strain's derivative, the strain
+        w, d0, d1, d3 = c[at], c[at + 1] / length, c[at + 2], c[at + 4]
         at += 5
-        rx = d[i, 0] * (q[0] - q[4]) + d[i, 1] * q[2] + d[i, 3] * q[6]
-        ry = d[i, 0] * (q[1] - q[5]) + d[i, 1] * q[3] + d[i, 3] * q[7]
-        vx = d[i, 0] * (v[0] - v[4]) + d[i, 1] * v[2] + d[i, 3] * v[6]
-        vy = d[i, 0] * (v[1] - v[5]) + d[i, 1] * v[3] + d[i, 3] * v[7]
-        slope[i, 0], slope[i, 1] = w * rx, w * ry
-        p[i, 0], p[i, 1] = (g + tau) * rx + g * tau * vx, (g + tau) * ry + g * tau * vy
-        own[i] = 0.5 * (rx * rx + ry * ry - 1.0) + tau * (rx * vx + ry * vy)
-        mean += w * own[i]
+        rx, ry = d0 * (q[0] - q[4]) + d1 * q[2] + d3 * q[6], d0 * (q[1] - q[5]) + d1 * q[3] + d3 * q[7]
+        vx, vy = d0 * (v[0] - v[4]) + d1 * v[2] + d3 * v[6], d0 * (v[1] - v[5]) + d1 * v[3] + d3 * v[7]
+        strain = 0.5 * (rx * rx + ry * ry - 1.0) + tau * (rx * vx + ry * vy)
+        mean += w * strain
+        work[i, 0], work[i, 1], work[i, 2], work[i, 3], work[i, 4] = d0, d1, d3, w * rx, w * ry
+        work[i, 5], work[i, 6], work[i, 7] = (g + tau) * rx + g * tau * vx, (g + tau) * ry + g * tau * vy, strain
     whole, part = length * c[EA] * (1.0 - c[EVEN]), length * c[EA] * c[EVEN]
     for i in range(GAUSS):
-        own[i] = whole * mean + part * own[i]
-        sx, sy = own[i] * slope[i, 0], own[i] * slope[i, 1]
-        for j in range(4):
-            f[2 * j] += d[i, j] * sx
-            f[2 * j + 1] += d[i, j] * sy
+        d0, d1, d3 = work[i, 0], work[i, 1], work[i, 2]
+        force = whole * mean + part * work[i, 7]
+        work[i, 7] = force
+        sx, sy = force * work[i, 3], force * work[i, 4]
+        f[0] += d0 * sx
+        f[1] += d0 * sy
+        f[2] += d1 * sx
+        f[3] += d1 * sy
+        f[4] -= d0 * sx
+        f[5] -= d0 * sy
+        f[6] += d3 * sx
+        f[7] += d3 * sy
     if derive:
-        row, column = np.zeros(8), np.zeros(8)
+        work[3:5, :] = 0.0
         at = int(c[SHAPES])
         for i in range(GAUSS):
-            w = c[at]
+            w, d0, d1, d3 = c[at], work[i, 0], work[i, 1], work[i, 2]
             at += 5
-            sx, sy, px, py = slope[i, 0], slope[i, 1], p[i, 0], p[i, 1]
-            for j in range(4):
-                row[2 * j] += d[i, j] * sx
-                row[2 * j + 1] += d[i, j] * sy
-                column[2 * j] += whole * w * d[i, j] * px
-                column[2 * j + 1] += whole * w * d[i, j] * py
-            tension = w * own[i] * g
+            sx, sy, px, py = work[i, 3], work[i, 4], work[i, 5], work[i, 6]
+            wx, wy = whole * w * px, whole * w * py
+            for xy in range(2):
+                s, t = (sx, wx) if xy == 0 else (sy, wy)
+                work[3, xy] += d0 * s
+                work[3, 2 + xy] += d1 * s
+                work[3, 4 + xy] -= d0 * s
+                work[3, 6 + xy] += d3 * s
+                work[4, xy] += d0 * t
+                work[4, 2 + xy] += d1 * t
+                work[4, 4 + xy] -= d0 * t
+                work[4, 6 + xy] += d3 * t
+            tension = w * work[i, 7] * g
             sx, sy = part * sx, part * sy
-            spread(k, d[i, 0], d[i, 1], d[i, 2], d[i, 3], tension + sx * px, sx * py, sy * px, tension + sy * py)
+            spread(k, d0, d1, -d0, d3, tension + sx * px, sx * py, sy * px, tension + sy * py)
         for i in range(8):
             for j in range(8):
-                k[i, j] += row[i] * column[j]
+                k[i, j] += work[3, i] * work[4, j]
 
 
 @compiled(
@@ -196,7 +206,11 @@ def contact(c, length, g, derive, rim, first, q, v, zb, z, f, k, edge):  # type:
                 row_n, row_t = 0.0, col
                 corner += kt * g * (rho / radius) ** 2
             spread(
-                k, s0, s1, s2, s3,
+                k,
+                s0,
+                s1,
+                s2,
+                s3,
                 nn * nx * nx + tt * tx * tx + nt * nx * tx + tn * tx * nx,
                 nn * nx * ny + tt * tx * ty + nt * nx * ty + tn * tx * ny,
                 nn * ny * nx + tt * ty * tx + nt * ny * tx + tn * ty * nx,
@@ -252,7 +266,7 @@ def assemble(mode, c, g, x, w, q, v, a, zb, z, r, band, border):  # type: ignore
         border[0, s] = c[RIM] / g
     _, _, dx, dy, cx, cy = weight_end(c, q[0])
     node, lin = np.empty((3, 8)), np.empty((12, 4))
-    f, k, edge = np.empty(8), np.empty((8, 8)), np.empty((2, 8))
+    f, k, edge, work = np.empty(8), np.empty((8, 8)), np.empty((2, 8)), np.empty((5, 8))
     previous, pull, bend = -1.0, 0.0, 0.0
     for e in range(elements):
         length = c[int(c[LENGTHS]) + e]
@@ -260,11 +274,13 @@ def assemble(mode, c, g, x, w, q, v, a, zb, z, r, band, border):  # type: ignore
             linear(c, length, g, derive, lin)
             previous = length
         gather(c, x, w, q, v, a, e, elements, node)
-        element(c, length, g, derive, node[0], node[1], node[2], lin, f, k)
+        element(c, length, g, derive, node[0], node[1], node[2], lin, f, k, work)
         if e == 0:
             pull = math.hypot(f[0], f[1])
         near = radius + length
-        touches = radius > 0.0 and min(node[0, 0] ** 2 + node[0, 1] ** 2, node[0, 4] ** 2 + node[0, 5] ** 2) < near * near
+        touches = (
+            radius > 0.0 and min(node[0, 0] ** 2 + node[0, 1] ** 2, node[0, 4] ** 2 + node[0, 5] ** 2) < near * near
+        )
         base = 4 * e - 1
         if touches:
             edge[:, :] = 0.0
@@ -330,9 +346,9 @@ def gauge(c, x, w, q, v, z):  # type: ignore[no-untyped-def]
     e = elements - 1
     length = c[int(c[LENGTHS]) + e]
     node, lin = np.empty((3, 8)), np.empty((12, 4))
-    f, k = np.empty(8), np.empty((8, 8))
+    f, k, work = np.empty(8), np.empty((8, 8)), np.empty((5, 8))
     linear(c, length, 1.0, False, lin)
     gather(c, x, w, q, v, q, e, elements, node)
     node[2] = 0.0
-    element(c, length, 1.0, False, node[0], node[1], node[2], lin, f, k)
+    element(c, length, 1.0, False, node[0], node[1], node[2], lin, f, k, work)
     return f[4] * c[DTX] + f[5] * c[DTY]

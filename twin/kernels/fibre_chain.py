@@ -26,7 +26,7 @@ HYSTERESIS = 5e-5  # m, of the handover between segments
 
 @compiled("UniTuple(float64, 5)(float64[::1], float64, float64)")
 def on_rim(c, x, y):  # type: ignore[no-untyped-def]
-    """The point as the fibre sees it, pushed out of the pulley with a rounded edge: x, y, J_radial, J_tangential, J'."""
+    """A point as the fibre sees it: pushed out of the pulley with a rounded edge: x, y, J radial, J tangential, J'."""
     radius, edge = c[RADIUS], c[ROUND]
     square = x * x + y * y
     if square >= (radius + edge) ** 2 or radius == 0.0:
@@ -52,9 +52,9 @@ def wraps(radius, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     return cross > 0.0 or cross * cross < radius * radius * square
 
 
-@compiled("UniTuple(float64, 5)(float64, float64, float64, float64)")
+@compiled("UniTuple(float64, 4)(float64, float64, float64, float64)")
 def tangent(radius, x, y, side):  # type: ignore[no-untyped-def]
-    """The free end of a wrapped segment: length to the arc's middle, its gradient, 1/tangent length, polar angle.
+    """The free end of a wrapped segment: length to the arc's middle, its gradient, 1 / tangent length.
 
     side: +1 for the end towards the weight, -1 towards the drive.
     """
@@ -67,7 +67,7 @@ def tangent(radius, x, y, side):  # type: ignore[no-untyped-def]
     length = free - radius * math.atan2(free, radius) + side * radius * (angle - 0.5 * math.pi)
     gx = (free * x - side * radius * y) / rho2
     gy = (free * y + side * radius * x) / rho2
-    return length, gx, gy, (1.0 / free if free > 1e-10 else 0.0), angle
+    return length, gx, gy, (1.0 / free if free > 1e-10 else 0.0)
 
 
 @compiled("void(float64[:,::1], int64, int64, float64, float64, float64, float64)")
@@ -112,8 +112,8 @@ def settle(c, x, w, q, z):  # type: ignore[no-untyped-def]
         part = min(max(-(sx * dx + sy * dy) / (dx * dx + dy * dy), 0.0), 1.0)
         z[0], z[1] = (m + part) * natural + q[-1], float(m)
         return
-    first, _, _, _, _ = tangent(c[RADIUS], sx, sy, 1.0)
-    second, _, _, _, _ = tangent(c[RADIUS], tx, ty, -1.0)
+    first, _, _, _ = tangent(c[RADIUS], sx, sy, 1.0)
+    second, _, _, _ = tangent(c[RADIUS], tx, ty, -1.0)
     stretch = first + second - natural
     if not moved and stretch > 0.0:
         return
@@ -123,8 +123,8 @@ def settle(c, x, w, q, z):  # type: ignore[no-untyped-def]
         rx, ry = node(c, int(z[1]) + 1, q, x, w)
         px, py, _, _, _ = on_rim(c, px, py)
         rx, ry, _, _, _ = on_rim(c, rx, ry)
-        one, _, _, _, _ = tangent(c[RADIUS], px, py, 1.0)
-        two, _, _, _, _ = tangent(c[RADIUS], rx, ry, -1.0)
+        one, _, _, _ = tangent(c[RADIUS], px, py, 1.0)
+        two, _, _, _ = tangent(c[RADIUS], rx, ry, -1.0)
         l1 = z[0] - q[-1] - z[1] * natural
         l2 = natural - l1
         difference = (one - l1) / (max(l1, 0.0) + c[BOND]) - (two - l2) / (max(l2, 0.0) + c[BOND])
@@ -172,8 +172,8 @@ def assemble(mode, c, g, x, w, q, v, a, zb, z, r, band, border):  # type: ignore
         sbx, sby, jbr, jbt, jbb = on_rim(c, bx, by)
         wrapped = wraps(radius, sax, say, sbx, sby)
         if wrapped:
-            la, gax, gay, ca, angle_a = tangent(radius, sax, say, 1.0)
-            lb, gbx, gby, cb, angle_b = tangent(radius, sbx, sby, -1.0)
+            la, gax, gay, ca = tangent(radius, sax, say, 1.0)
+            lb, gbx, gby, cb = tangent(radius, sbx, sby, -1.0)
         else:
             dx, dy = sbx - sax, sby - say
             length = math.sqrt(dx * dx + dy * dy)
@@ -256,7 +256,11 @@ def assemble(mode, c, g, x, w, q, v, a, zb, z, r, band, border):  # type: ignore
         if derive and ta > 0.0:
             ga, gb = g * ta * ca, g * tb * cb
             # A with A
-            xx, xy, yy = kaa * gax * gax + ga * hax * hax, kaa * gax * gay + ga * hax * hay, kaa * gay * gay + ga * hay * hay
+            xx, xy, yy = (
+                kaa * gax * gax + ga * hax * hax,
+                kaa * gax * gay + ga * hax * hay,
+                kaa * gay * gay + ga * hay * hay,
+            )
             if bend_a != 0.0:
                 ux, uy = sax / math.hypot(sax, say), say / math.hypot(sax, say)
                 e = g * ta * bend_a
@@ -277,12 +281,32 @@ def assemble(mode, c, g, x, w, q, v, a, zb, z, r, band, border):  # type: ignore
                 add(band, ia, ia, xx, xy, xy, yy)
                 if j < count:
                     ib, ge = ia + 2, -cross_g * ga
-                    add(band, ia, ib, abx * gbx + ge * hax * hbx, abx * gby + ge * hax * hby, aby * gbx + ge * hay * hbx, aby * gby + ge * hay * hby)
+                    add(
+                        band,
+                        ia,
+                        ib,
+                        abx * gbx + ge * hax * hbx,
+                        abx * gby + ge * hax * hby,
+                        aby * gbx + ge * hay * hbx,
+                        aby * gby + ge * hay * hby,
+                    )
                     bax, bay = kba * gbx, kba * gby
-                    add(band, ib, ia, bax * gax + ge * hbx * hax, bax * gay + ge * hbx * hay, bay * gax + ge * hby * hax, bay * gay + ge * hby * hay)
+                    add(
+                        band,
+                        ib,
+                        ia,
+                        bax * gax + ge * hbx * hax,
+                        bax * gay + ge * hbx * hay,
+                        bay * gax + ge * hby * hax,
+                        bay * gay + ge * hby * hay,
+                    )
             if j < count:
                 ib = 2 * j + 1
-                xx, xy, yy = kbb * gbx * gbx + gb * hbx * hbx, kbb * gbx * gby + gb * hbx * hby, kbb * gby * gby + gb * hby * hby
+                xx, xy, yy = (
+                    kbb * gbx * gbx + gb * hbx * hbx,
+                    kbb * gbx * gby + gb * hbx * hby,
+                    kbb * gby * gby + gb * hby * hby,
+                )
                 if bend_b != 0.0:
                     ux, uy = sbx / math.hypot(sbx, sby), sby / math.hypot(sbx, sby)
                     e = g * tb * bend_b

@@ -1,7 +1,8 @@
 """What every discretised fibre's constants begin with: the rig, laid out in the plane of the fibre.
 
 The pulley's centre is the origin and the arc is symmetric about +y; the fibre runs clockwise over it from the weight
-to the drive. With a lateral offset the weight's strand swivels with its plane: its length is that of `twin.rigs.strand`.
+to the drive. With a lateral offset the weight's strand swivels with its plane; its
+length is that of `twin.rigs.strand`.
 """
 
 from __future__ import annotations

@@ -30,7 +30,19 @@ def _constants(setup: Setup, parameters: Mapping[str, float]) -> Float:
     c = pack_rig(setup, _OWN, sliding=friction, drag=drag)
     segment = c[LENGTH] / (count + 1)
     wrap = setup.wrap_angle if c[RADIUS] > 0 else 0.0
-    own = [count, c[FIBRE_MASS] / count, segment, c[EA] / segment, 1e-4, 1e5, bond, 5e-6, math.exp(friction * wrap), step, 2.0]
+    own = [
+        count,
+        c[FIBRE_MASS] / count,
+        segment,
+        c[EA] / segment,
+        1e-4,
+        1e5,
+        bond,
+        5e-6,
+        math.exp(friction * wrap),
+        step,
+        2.0,
+    ]
     c[RIG : RIG + len(own)] = own
     return c
 
@@ -41,7 +53,7 @@ def _start(c: Float, start: Start) -> Float:
     placed = place(c, start, segment * np.arange(1, count + 1))
     state = np.zeros(3 * n + 2)
     state[0], state[1] = start.u, start.v
-    state[2 : n], state[n] = placed.points.reshape(-1), placed.s
+    state[2:n], state[n] = placed.points.reshape(-1), placed.s
     state[n + 1 : 2 * n - 1], state[2 * n - 1] = placed.velocities.reshape(-1), placed.rim_speed
     state[3 * n] = placed.split + placed.s
     state[3 * n + 1] = min(int(placed.split / segment), count)
@@ -54,7 +66,11 @@ def _advance(c: Float, state: Float, drive: Float, dt: float, out: Float) -> int
     count = int(c[RIG])
     steps = max(1, math.ceil(dt / c[RIG + 9] - 1e-6))
     size = np.array([2 * count + 2, fibre_chain.BAND, 2, steps], dtype=np.int64)
-    return int(fibre_step.advance(fibre_chain.assemble, fibre_chain.gauge, size, np.ones(2 * count + 2), c, state, drive, dt, out))
+    return int(
+        fibre_step.advance(
+            fibre_chain.assemble, fibre_chain.gauge, size, np.ones(2 * count + 2), c, state, drive, dt, out
+        )
+    )
 
 
 def _warm() -> None:
