@@ -12,7 +12,7 @@ from rich.progress_bar import ProgressBar
 from rich.table import Table
 from rich.text import Text
 
-from api.cli._console import cell, err
+from api.cli._console import cell, err, progress
 from api.experiment import Experiment, State
 from api.follow import Follower
 from api.live import score_view
@@ -36,7 +36,9 @@ def run_and_watch(
     from stand.runs import PHASES, start
 
     setup = order.setup or stand.setup
-    beside = Beside(lambda: make_twin(model, setup)) if model else None
+    with progress("preparing the model (it compiles once)"):
+        twin = make_twin(model, setup) if model else None
+    beside = Beside(lambda: twin) if twin else None
     handle = start(stand, order)
     experiment = Experiment("run", {}, model or "", "", PHASES, seconds)
     with Live(console=err, auto_refresh=False, transient=False) as live:

@@ -31,7 +31,7 @@ def command(
 
     seed = random.SystemRandom().randrange(2**31) if seed is None else seed
     hidden = draw(seed) if hide is None else None if hide == "none" else hide
-    order = Order(shape=Shape.TRAPEZOIDAL, frequency=1.6, amplitude=0.03, ramp=0.16, duration=duration)
+    order = Order(shape=Shape.TRAPEZOIDAL, frequency=1.6, amplitude=0.03, ramp=0.2, duration=duration)
     secret = "what it hides is told at the end" if hide is None else f"it hides {hide}"
     err.print(f"A simulated stand starts (seed {seed}); {secret}.")
     with configured(None, simulated=True, arguments=serve_arguments([hidden] if hidden else [], seed)) as (rig, mock):
