@@ -95,14 +95,14 @@ class _Screen:
         state = experiment.phase if experiment.active else str(experiment.state)
         tone = "green" if experiment.state in GOOD else "cyan" if experiment.active else "bold red"
         bar = ProgressBar(total=1.0, completed=experiment.view()["progress"], width=30)
-        clock = f"{experiment.elapsed:5.1f} / {experiment.seconds:.1f} s"
+        clock = f"{min(experiment.elapsed, experiment.seconds):5.1f} / {experiment.seconds:.1f} s"
         head.add_row(Text(self._title, style="bold"), Text(f"{state:<9}", style=tone), bar, clock)
         return head
 
     def _table(self) -> Table:
         table = Table(box=None, header_style="dim", pad_edge=False)
-        for name in ("channel", "measured", "simulated", "R", "R sliding", "NRMSE", "short-window error"):
-            table.add_column(name, justify="left" if name == "channel" else "right", min_width=9)
+        for name in ("channel", "measured", "simulated", "R", "R sliding", "NRMSE", "window error"):
+            table.add_column(name, justify="left" if name == "channel" else "right", no_wrap=True)
         for key, title, unit in (("u", "weight u", "mm"), ("F", "force F", "N"), ("x", "drive x", "mm")):
             score = self._score.get(key) or {}
             window = (self._score.get("short") or {}).get(key)
