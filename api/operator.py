@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 #: the devices are asked for their status at this interval while someone watches and nothing runs, s
 STATUS_EVERY = 10.0
+#: how long a look at the devices is waited for, s
+PATIENCE = 15.0
 
 
 class Operator:
@@ -157,7 +159,9 @@ class Operator:
         return self.runs.list()
 
     def _take(self) -> None:
-        if not self._busy.acquire(timeout=3.0):
+        """Have the stand for oneself; a look at the devices is waited for, an experiment is not."""
+        runs = any(experiment.active for experiment in self._experiments.values())
+        if runs or not self._busy.acquire(timeout=PATIENCE):
             raise Conflict("the stand is busy", where="stand", remedy="Wait for the experiment to end, or stop it")
 
     def _model(self, name: str) -> str:

@@ -59,7 +59,7 @@ def see(page: Page, selector: str, text: str, seconds: float = 30.0) -> None:
 def fill(page: Page, *, cycles: int) -> None:
     page.get_by_label("Shape").select_option("trapezoidal")
     for label, value in (("Frequency", "2"), ("Stroke", "5"), ("Ramp", "0.15"), ("Cycles", str(cycles))):
-        page.get_by_label(label).fill(value)
+        page.get_by_role("spinbutton", name=label).fill(value)
 
 
 def test_the_token_has_left_the_address(page: Page) -> None:
@@ -68,10 +68,10 @@ def test_the_token_has_left_the_address(page: Page) -> None:
 
 def test_an_order_beyond_the_limits_can_not_be_started(page: Page) -> None:
     fill(page, cycles=2)
-    page.get_by_label("Stroke").fill("500")
+    page.get_by_role("spinbutton", name="Stroke").fill("500")
     see(page, "#verdict", "amplitude")
     expect(page.locator("#start")).to_be_disabled()
-    assert page.get_by_label("Stroke").get_attribute("aria-invalid") == "true"
+    assert page.get_by_role("spinbutton", name="Stroke").get_attribute("aria-invalid") == "true"
 
 
 def test_an_experiment_started_by_a_click_shows_R_and_ends_in_the_list(page: Page) -> None:
