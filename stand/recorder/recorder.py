@@ -7,13 +7,12 @@ import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Protocol
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
 
 from stand.block import Block
+from stand.clock.model import LiveBlock
 from stand.errors import StandError
 from stand.recorder.layout import FilePlan, Layout, create_layout
 from stand.recorder.raw import Happening, Taken
@@ -23,18 +22,7 @@ from stand.transport.raw import RawBytes, RawRegisters
 FLUSH = 0.2
 
 
-class GridBlock(Protocol):
-    """Consecutive samples on the common grid, as the live aligner gives them; x, u, F in m, m, N [n]."""
-
-    first: int
-    time: NDArray[np.float64]
-    x: NDArray[np.float64]
-    u: NDArray[np.float64]
-    F: NDArray[np.float64]
-    quality: NDArray[np.uint8]
-
-
-Item = Taken | Happening | GridBlock
+Item = Taken | Happening | LiveBlock
 
 
 class Recorder:
@@ -147,7 +135,7 @@ def _add_block(layout: Layout, block: Block) -> None:
         series["ticks"].add(block.ticks)
 
 
-def _add_grid(layout: Layout, block: GridBlock, channels: list[str]) -> None:
+def _add_grid(layout: Layout, block: LiveBlock, channels: list[str]) -> None:
     letters = {"drive_position": block.x, "weight_position": block.u, "fibre_force": block.F}
     layout.data["time"].add(block.time)
     layout.data["quality"].add(block.quality)

@@ -35,9 +35,9 @@ class Reader(Protocol):
 
 
 def make_readers(stand: Stand) -> dict[str, Reader]:
-    """A reader for each instrument of the stand."""
-    readers: dict[str, Reader] = {"drive": RingReader(stand)}
-    return readers | {name: GaugeReader(name, getattr(stand, name)) for name in GAUGES}
+    """A reader for each instrument of the stand; the drive's last: a replay begins when it is asked."""
+    readers: dict[str, Reader] = {name: GaugeReader(name, getattr(stand, name)) for name in GAUGES}
+    return readers | {"drive": RingReader(stand)}
 
 
 class Acquisition:

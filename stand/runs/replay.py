@@ -7,6 +7,7 @@ from pathlib import Path
 
 import h5py
 
+from stand.config import Stand, load_stand_text
 from stand.errors import InputError
 from stand.recorder import FilePlan, Recorder
 from stand.recorder.finish import finish_file
@@ -60,19 +61,26 @@ def _listen(rig: Rig, order: RunOrder, span: Span) -> None:
 
 def _over(rig: Rig, order: RunOrder, span: Span) -> bool:
     now = time.monotonic()
-    if order.seconds and now - span.origin >= order.seconds / max(order.speed, 1.0):
+    whole = order.inject is not None  # the raw streams begin before the grid and end after it
+    if not whole and order.seconds and now - span.origin >= order.seconds:
         return True
     return all(meter.lost or meter.age(now) > SILENCE for meter in rig.acquisition.meters.values())
 
 
 def _close(rig: Rig, order: RunOrder, path: Path, span: Span) -> Finished:
     outcome = Outcome.STOPPED if rig.halt.wanted() else Outcome.FINISHED
-    why, streams, origin, count = rig.halt.reason, None, span.origin, span.count
+    why, streams, stand, origin, count = rig.halt.reason, None, rig.stand, span.origin, span.count
     if order.inject is not None:
         streams = injected(path, order.inject)
-        with h5py.File(order.inject, "r") as source:
-            data = source["entry/data"]
-            origin, count = float(data.attrs["host_origin"]), len(data["time"])
-    finish_file(path, rig.stand, origin=origin, count=count, outcome=outcome, why=why, streams=streams)
+        stand, origin, count = _recorded(order.inject)
+    finish_file(path, stand, origin=origin, count=count, outcome=outcome, why=why, streams=streams)
     rig.publish(Phase("done", time.monotonic()))
     return Finished(path, outcome, why)
+
+
+def _recorded(path: Path) -> tuple[Stand, float, int]:
+    """The calibrated stand of a recording, and its grid's origin s and samples: its arrivals mean nothing without."""
+    with h5py.File(path, "r") as source:
+        stand = load_stand_text(source["entry/configuration"][()].decode(), f"{path}:/entry/configuration")
+        data = source["entry/data"]
+        return stand, float(data.attrs["host_origin"]), len(data["time"])

@@ -13,12 +13,13 @@ import h5py
 import numpy as np
 import pytest
 
+from stand.excitation.plan import plan
 from stand.excitation.spec import Excitation, Shape
 from stand.recording import read_recording
 from stand.runs import Finished, LiveBlock, Outcome, Phase, RunOrder, jog, rest_check, start, status
 from tests.loop.kills import kill_once
 from tests.loop.ledger import drive_truth
-from tests.loop.simulated import Simulated, simulated_stand
+from tests.loop.simulated import Simulated, launch, simulated_stand
 from tests.loop.soak import lost_samples
 from tests.loop.trips import trip_once
 
@@ -48,8 +49,8 @@ def test_a_run_is_recorded_without_a_gap_and_told_live(
     phases = [event.name for event in events if isinstance(event, Phase)]
     assert phases == ["connect", "check", "prepare", "rest", "motion", "settle", "stop", "align", "done"]
     recording = read_recording(last.path)
-    seconds = 2.0 + excitation.duration
-    assert len(recording.time) == round(2000 * seconds)
+    planned = plan(excitation, simulated.stand.limits)
+    assert len(recording.time) == int(2000 * planned.duration + 1e-6)
     assert recording.complete
     assert recording.quality is not None
     assert not recording.quality.any()
@@ -102,3 +103,26 @@ def test_the_stand_can_be_looked_at_and_prepared_without_a_run(simulated: Simula
     assert jog(simulated.stand, 0.002) == pytest.approx(before + 0.002, abs=2e-4)
     assert jog(simulated.stand, -0.002) == pytest.approx(before, abs=2e-4)
     assert rest_check(simulated.stand).ok
+
+
+@pytest.mark.parametrize("speed", ["1", "max"])
+def test_a_replay_through_devices_gives_the_same_bytes_and_with_its_arrivals_the_same_grid(
+    simulated: Simulated, tmp_path: Path, speed: str
+) -> None:
+    first = start(simulated.stand, RunOrder(SHAPES[1], folder=tmp_path, name="first")).wait()
+    assert isinstance(first, Finished), first
+    assert first.path is not None
+    played = launch(["replay", str(first.path), "--speed", speed], tmp_path / "none")
+    pace = 0.0 if speed == "max" else float(speed)
+    order = RunOrder(SHAPES[1], folder=tmp_path, name="again", replay=True, speed=pace, inject=first.path)
+    again = start(played.stand, order).wait()
+    played.close()
+    assert isinstance(again, Finished), again
+    assert again.path is not None
+    with h5py.File(first.path) as one, h5py.File(again.path) as two:
+        for name in ("time", "drive_position", "weight_position", "fibre_force", "quality"):
+            assert np.array_equal(one["entry/data"][name][()], two["entry/data"][name][()]), name
+        for name in ("force_gauge", "dial_gauge"):
+            assert np.array_equal(
+                one[f"entry/instruments/{name}/values"][()], two[f"entry/instruments/{name}/values"][()]
+            )

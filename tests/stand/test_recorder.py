@@ -6,7 +6,6 @@ import signal
 import subprocess
 import sys
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
 import h5py
@@ -14,6 +13,7 @@ import numpy as np
 import pytest
 
 from stand.block import Block
+from stand.clock.model import LiveBlock
 from stand.errors import StandError
 from stand.excitation.spec import Excitation, Shape
 from stand.recorder import FilePlan, Happening, Recorder, StreamSpec, Taken, Wire
@@ -29,23 +29,13 @@ SPECS = (
 EXCITATION = Excitation(Shape.TRAPEZOIDAL, 1.0, 0.02, 0.1, 2)
 
 
-@dataclass(frozen=True)
-class Grid:
-    first: int
-    time: np.ndarray
-    x: np.ndarray
-    u: np.ndarray
-    F: np.ndarray
-    quality: np.ndarray
-
-
 def plan() -> FilePlan:
     return FilePlan(SPECS, Setup(), EXCITATION, 'name = "x"', seconds=2.0)
 
 
-def grid(first: int, n: int, value: float) -> Grid:
+def grid(first: int, n: int, value: float) -> LiveBlock:
     values = np.full(n, value)
-    return Grid(first, (first + np.arange(n)) / 2000, values, values, values, np.zeros(n, np.uint8))
+    return LiveBlock(first, (first + np.arange(n)) / 2000, values, values, values, np.zeros(n, np.uint8), value)
 
 
 def feed(recorder: Recorder, n: int, now: float) -> None:
