@@ -36,9 +36,9 @@ def tune(model: FibreModel, recordings: Sequence[Recording], chosen: Sequence[Un
     simplex = np.vstack([np.zeros(len(chosen)), 0.1 * np.eye(len(chosen))])
     options = {"maxfev": most, "xatol": 1e-4, "fatol": 1e-12, "initial_simplex": simplex}
     found = minimize(total, np.zeros(len(chosen)), method="Nelder-Mead", bounds=bounds, options=options)
-    values = first + scale * found.x
+    values: Float = np.asarray(first + scale * found.x, dtype=np.float64)
     covariance = sum((_information(model, d, chosen, values) for d in data), np.zeros((len(chosen),) * 2))
-    return Solution(values, np.linalg.pinv(covariance), total(np.zeros(len(chosen))), float(found.fun))
+    return Solution(values, np.asarray(np.linalg.pinv(covariance)), total(np.zeros(len(chosen))), float(found.fun))
 
 
 def _run(model: FibreModel, data: Measured, chosen: Sequence[Unknown], values: Float) -> Float | None:

@@ -31,7 +31,7 @@ from twin.kernels.fibre_layout import (
 )
 from twin.kernels.fibre_rig import drive_end, guide, weight_end
 from twin.kernels.fibre_step import ASSEMBLE, GAUGE, RESIDUAL, SETTLE
-from twin.kernels.jit import compiler
+from twin.kernels.jit import compiler, part
 
 compiled = compiler("fibre")
 
@@ -59,9 +59,7 @@ def linear(c, length, g, derive, out):  # type: ignore[no-untyped-def]
                 out[8 + i, j] = (1.0 / g + c[DRAG]) * out[i, j] + (g + c[TAU]) * out[4 + i, j]
 
 
-@compiled(
-    "void(float64[:,::1], float64, float64, float64, float64, float64, float64, float64, float64)", fastmath=_FAST
-)
+@part(fastmath=_FAST)
 def spread(k, d0, d1, d2, d3, bxx, bxy, byx, byy):  # type: ignore[no-untyped-def]
     """Add d_i d_j B to the 2 x 2 blocks (i, j) of k."""
     d = (d0, d1, d2, d3)
@@ -146,11 +144,7 @@ def element(c, length, g, derive, q, v, a, lin, f, k, work):  # type: ignore[no-
                 k[i, j] += work[3, i] * work[4, j]
 
 
-@compiled(
-    "UniTuple(float64, 2)(float64[::1], float64, float64, boolean, float64, int64, float64[::1], float64[::1],"
-    "float64[::1], float64[::1], float64[::1], float64[:,::1], float64[:,::1])",
-    fastmath=_FAST,
-)
+@part(fastmath=_FAST)
 def contact(c, length, g, derive, rim, first, q, v, zb, z, f, k, edge):  # type: ignore[no-untyped-def]
     """One element's contact with the rim: adds to f, k and edge [2, 8] (column, row of the pulley).
 
@@ -225,9 +219,7 @@ def contact(c, length, g, derive, rim, first, q, v, zb, z, f, k, edge):  # type:
     return torque, corner
 
 
-@compiled(
-    "void(float64[::1], float64, float64, float64[::1], float64[::1], float64[::1], int64, int64, float64[:,::1])"
-)
+@part
 def gather(c, x, w, q, v, a, e, elements, out):  # type: ignore[no-untyped-def]
     """Positions, velocities and accelerations of element e's two nodes, out [3, 8]."""
     base = 4 * e - 1

@@ -6,9 +6,7 @@ rows of padding behind the last unknown so that no loop has an edge.
 
 from __future__ import annotations
 
-from twin.kernels.jit import compiler
-
-compiled = compiler("fibre")
+from twin.kernels.jit import part
 
 _FAST = {"contract", "reassoc", "nsz", "arcp"}
 
@@ -36,11 +34,11 @@ def _solve(a, b, n, k):  # type: ignore[no-untyped-def]
         b[i] = total * a[i, k]
 
 
-_factor_any = compiled("void(float64[:,::1], int64, int64)", fastmath=_FAST, inline="always")(_factor)
-_solve_any = compiled("void(float64[:,::1], float64[::1], int64, int64)", fastmath=_FAST, inline="always")(_solve)
+_factor_any = part(_factor, fastmath=_FAST, inline="always")
+_solve_any = part(_solve, fastmath=_FAST, inline="always")
 
 
-@compiled("void(float64[:,::1], int64, int64)", fastmath=_FAST)
+@part(fastmath=_FAST)
 def factor(a, n, k):  # type: ignore[no-untyped-def]
     """LU in place, the pivots inverted; the padding is overwritten. k: 3, 5 or 7."""
     for i in range(n, n + k):
@@ -54,7 +52,7 @@ def factor(a, n, k):  # type: ignore[no-untyped-def]
         _factor_any(a, n, 7)
 
 
-@compiled("void(float64[:,::1], float64[::1], int64, int64)", fastmath=_FAST)
+@part(fastmath=_FAST)
 def solve(a, b, n, k):  # type: ignore[no-untyped-def]
     """Solve with the factors of `factor`; b is overwritten by the solution, its padding by zeros."""
     for i in range(n, n + k):

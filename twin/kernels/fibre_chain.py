@@ -13,7 +13,7 @@ import math
 from twin.kernels.fibre_layout import DRAG, EA, GX, GY, MASS, RADIUS, RIG, RIM, SLIDING, TAU, WEIGHT
 from twin.kernels.fibre_rig import drive_end, guide, weight_end
 from twin.kernels.fibre_step import ASSEMBLE, GAUGE, RESIDUAL, SETTLE
-from twin.kernels.jit import compiler
+from twin.kernels.jit import compiler, part
 
 compiled = compiler("fibre")
 
@@ -24,7 +24,7 @@ BAND = 3
 HYSTERESIS = 5e-5  # m, of the handover between segments
 
 
-@compiled("UniTuple(float64, 5)(float64[::1], float64, float64)")
+@part
 def on_rim(c, x, y):  # type: ignore[no-untyped-def]
     """A point as the fibre sees it: pushed out of the pulley with a rounded edge: x, y, J radial, J tangential, J'."""
     radius, edge = c[RADIUS], c[ROUND]
@@ -40,7 +40,7 @@ def on_rim(c, x, y):  # type: ignore[no-untyped-def]
     return x * scale, y * scale, slope, scale, bend
 
 
-@compiled("boolean(float64, float64, float64, float64, float64)")
+@part
 def wraps(radius, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     """Does the segment from A to B, clockwise over the top, lie on the pulley?"""
     dx, dy = bx - ax, by - ay
@@ -52,7 +52,7 @@ def wraps(radius, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     return cross > 0.0 or cross * cross < radius * radius * square
 
 
-@compiled("UniTuple(float64, 4)(float64, float64, float64, float64)")
+@part
 def tangent(radius, x, y, side):  # type: ignore[no-untyped-def]
     """The free end of a wrapped segment: length to the arc's middle, its gradient, 1 / tangent length.
 
@@ -70,7 +70,7 @@ def tangent(radius, x, y, side):  # type: ignore[no-untyped-def]
     return length, gx, gy, (1.0 / free if free > 1e-10 else 0.0)
 
 
-@compiled("void(float64[:,::1], int64, int64, float64, float64, float64, float64)")
+@part
 def add(band, i, j, xx, xy, yx, yy):  # type: ignore[no-untyped-def]
     """Add a 2 x 2 block at (i, j)."""
     band[i, BAND + j - i] += xx
@@ -79,7 +79,7 @@ def add(band, i, j, xx, xy, yx, yy):  # type: ignore[no-untyped-def]
     band[i + 1, BAND + j - i] += yy
 
 
-@compiled("UniTuple(float64, 2)(float64[::1], int64, float64[::1], float64, float64)")
+@part
 def node(c, j, q, x, w):  # type: ignore[no-untyped-def]
     """Position of node j: 0 the weight's end, N + 1 the drive's."""
     if j == 0:
@@ -91,7 +91,7 @@ def node(c, j, q, x, w):  # type: ignore[no-untyped-def]
     return q[2 * j - 1], q[2 * j]
 
 
-@compiled("void(float64[::1], float64, float64, float64[::1], float64[::1])")
+@part
 def settle(c, x, w, q, z):  # type: ignore[no-untyped-def]
     """After a step: which segment lies on the arc's middle, and where on it, if that changed or the fibre is slack."""
     count, natural = int(c[COUNT]), c[SEGMENT]

@@ -22,12 +22,10 @@ from twin.kernels.fibre_layout import (
     WX,
     WY,
 )
-from twin.kernels.jit import compiler
-
-compiled = compiler("fibre")
+from twin.kernels.jit import part
 
 
-@compiled("UniTuple(float64, 6)(float64[::1], float64)")
+@part
 def weight_end(c, u):  # type: ignore[no-untyped-def]
     """Where the fibre holds the weight: x, y, dx/du, dy/du, d2x/du2, d2y/du2."""
     if c[OFFSET] == 0.0:
@@ -39,14 +37,14 @@ def weight_end(c, u):  # type: ignore[no-untyped-def]
     return x, y, c[WTX] * cosine, c[WTY] * cosine, -c[WTX] * bend, -c[WTY] * bend
 
 
-@compiled("UniTuple(float64, 4)(float64[::1], float64, float64)")
+@part
 def drive_end(c, x, w):  # type: ignore[no-untyped-def]
     """Where the drive holds the fibre: x, y and their rates."""
     length = c[DRIVE_STRAND] + x
     return c[DX] + c[DTX] * length, c[DY] + c[DTY] * length, c[DTX] * w, c[DTY] * w
 
 
-@compiled("UniTuple(float64, 2)(float64[::1], int64, int64, float64)")
+@part
 def table(c, at, n, v):  # type: ignore[no-untyped-def]
     """The friction table at v: force and slope, constant beyond its points."""
     if v <= c[at]:
@@ -59,7 +57,7 @@ def table(c, at, n, v):  # type: ignore[no-untyped-def]
     return c[at + 2 * n - 1], 0.0
 
 
-@compiled("UniTuple(float64, 2)(float64[::1], float64, float64, float64)")
+@part
 def guide(c, u, v, tension):  # type: ignore[no-untyped-def]
     """Friction of the guide and its slope over v; a sideways pull of the fibre adds to the normal load."""
     n = int(c[TABLE_POINTS])

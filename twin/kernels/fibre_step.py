@@ -16,7 +16,7 @@ import numpy as np
 from numba import types
 
 from twin.kernels.fibre_band import factor, solve
-from twin.kernels.jit import compiler
+from twin.kernels.jit import compiler, part
 
 compiled = compiler("fibre")
 
@@ -33,34 +33,12 @@ _v, _m = types.float64[::1], types.float64[:, ::1]
 ASSEMBLE = types.int64(types.int64, _v, types.float64, types.float64, types.float64, _v, _v, _v, _v, _v, _v, _m, _m)
 #: c, x, w, q, v, z -> force at the gauge
 GAUGE = types.float64(_v, types.float64, types.float64, _v, _v, _v)
-_STAGE = types.float64(
-    types.FunctionType(ASSEMBLE),
-    types.int64[::1],
-    _v,
-    _v,
-    types.float64,
-    types.float64,
-    types.float64,
-    _v,
-    _v,
-    _v,
-    _v,
-    _v,
-    _v,
-    _v,
-    _v,
-    _m,
-    _m,
-    _v,
-    types.float64,
-    types.float64,
-)
 _ADVANCE = types.int64(
     types.FunctionType(ASSEMBLE), types.FunctionType(GAUGE), types.int64[::1], _v, _v, _v, _m, types.float64, _m
 )
 
 
-@compiled("UniTuple(float64, 2)(float64[:,::1], int64, float64, float64)")
+@part
 def drive_at(drive, i, part, dt):  # type: ignore[no-untyped-def]
     """x and x' at `part` (0 to 1) of interval i, cubic Hermite."""
     x0, v0, x1, v1 = drive[i, 0], drive[i, 1] * dt, drive[i + 1, 0], drive[i + 1, 1] * dt
@@ -71,7 +49,7 @@ def drive_at(drive, i, part, dt):  # type: ignore[no-untyped-def]
     return x0 + part * (v0 + part * (b + part * a)), (v0 + part * (2.0 * b + part * 3.0 * a)) / dt
 
 
-@compiled(_STAGE)
+@part
 def newton(  # type: ignore[no-untyped-def]
     assemble, size, norm, c, g, x, w, qb, vb, zb, qs, vs, acc, zs, r, band, border, edge, factored, tolerance
 ):
