@@ -96,7 +96,8 @@ def bounds_of(reads: Reads, frame_period: float, byte_time: float, length: int) 
         return Bounds(early, reads.time + wait, nothing, nothing, index[:0], False, 0.0)
     late = reads.frames.astype(np.float64)
     left = (length - reads.partial - 1) * byte_time if cut else np.zeros(len(late))
-    return Bounds(early, ticks.time + wait, late, ticks.time + left, index, True, ticks.lateness)
+    after = (ticks.time + left)[:-1]  # after the last read there may be no next byte: the stream has ended
+    return Bounds(early, ticks.time + wait, late[:-1], after, index[:-1], True, ticks.lateness)
 
 
 def envelope(bounds: Bounds, period: float) -> Line:

@@ -8,9 +8,11 @@ import numpy as np
 
 from stand.clock.arrivals import Bounds, Int, Reads, bounds_of
 from stand.clock.gaps import SLACK, Gap, find_gaps, shift
-from stand.clock.lines import Line, line_below, line_between
+from stand.clock.lines import Line, line_below, line_between, mean_between
 from stand.clock.model import Clock
 
+#: crystals keep to this (relative); a slower or faster clock is believed where the reads leave no other
+TOLERANCE, WIDE = 55e-6, 2e-3
 #: a gap's place is sure to this many seconds
 DOUBT = 0.06
 
@@ -37,8 +39,8 @@ def fit_gauge(
     bounds = bounds_of(reads, period, byte_time, length)
     gaps = find_gaps(bounds, reads, period)
     shifted = _without_doubt(shift(bounds, reads.frames, gaps), reads, gaps)
-    line, method = _line(shifted, period)
-    fit_sigma = _sigma(shifted, period, line)
+    line, method, room = _line(shifted, period)
+    fit_sigma = _sigma(shifted, period) if room is None else room
     residual = float(np.median(shifted.before - line.at(shifted.early)))
     sigma = float(np.hypot(fit_sigma, latency_sigma))
     drift = period / line.slope - 1
@@ -59,23 +61,31 @@ def _without_doubt(bounds: Bounds, reads: Reads, gaps: tuple[Gap, ...]) -> Bound
     return replace(bounds, early=bounds.early[sure], before=bounds.before[sure], **kept)
 
 
-def _line(bounds: Bounds, period: float) -> tuple[Line, str]:
+def _line(bounds: Bounds, period: float) -> tuple[Line, str, float | None]:
+    """The clock's line, how it was found, and one sigma where the bounds state it by themselves."""
     if bounds.two_sided:
-        line = line_between(bounds.late, bounds.after, bounds.early, bounds.before, period)
-        if line.margin > -SLACK * period:
-            return line, "ticks"
-    return line_below(bounds.early, bounds.before, period), "envelope"
+        points = (bounds.late, bounds.after, bounds.early, bounds.before)
+        fuzz = 6.0 * bounds.residual / len(bounds.early)  # how far the ticks' own fit may be off
+        for spread in (TOLERANCE, WIDE):
+            lacking = max(0.0, -line_between(*points, period, spread).margin)
+            if lacking > SLACK * period * (0.5 if spread == TOLERANCE else 1.0):
+                continue
+            room = lacking + fuzz
+            found = mean_between(points[0], points[1] - room, points[2], points[3] + room, period, spread)
+            if found is not None:
+                return found[0], "ticks", float(np.hypot(found[1], fuzz))
+    return line_below(bounds.early, bounds.before, period), "envelope", None
 
 
-def _sigma(bounds: Bounds, period: float, line: Line) -> float:
-    """From two interleaved halves of the reads, and from the room that the bounds leave."""
+def _sigma(bounds: Bounds, period: float) -> float:
+    """From two interleaved halves of the reads."""
     halves = []
     for part in (0, 1):
-        some = replace(bounds, **{f: getattr(bounds, f)[part::2] for f in ("early", "before", "late", "after")})
+        some = replace(
+            bounds, **{name: getattr(bounds, name)[part::2] for name in ("early", "before", "late", "after")}
+        )
         if len(some.early) < 10:
             return float(period / np.sqrt(12))
         halves.append(_line(some, period)[0])
     where = np.array([bounds.early[0], bounds.early[-1]])
-    apart = float(np.max(np.abs(halves[0].at(where) - halves[1].at(where))))
-    room = max(line.margin, 0.0) / np.sqrt(3) if bounds.two_sided else 0.0
-    return float(np.hypot(apart / 2, room))
+    return float(np.max(np.abs(halves[0].at(where) - halves[1].at(where)))) / 2

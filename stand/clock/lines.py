@@ -76,20 +76,71 @@ def line_between(k_low: Float, low: Float, k_high: Float, high: Float, slope: fl
     Largest margin over slopes within `spread` (relative) of `slope`; the margin as a function of the slope is concave,
     so a golden-section search over the hulls' corners finds it. Negative where no line passes between.
     """
-    centre = (float(np.mean(k_low)) + float(np.mean(k_high))) / 2
-    base = float(np.min(high))
-    hk, hy = k_high - centre, (high - base) - slope * (k_high - centre)
-    lk, ly = k_low - centre, (low - base) - slope * (k_low - centre)
-    upper, lower = lower_hull(hk, hy), lower_hull(lk, -ly)
-    hk, hy, lk, ly = hk[upper], hy[upper], lk[lower], ly[lower]
+    band = _Band(k_low, low, k_high, high, slope)
+    tilt = _golden(band.width, -spread * slope, spread * slope)
+    top, bottom = band.ends(tilt)
+    return band.line((top + bottom) / 2, tilt, (top - bottom) / 2)
 
-    def ends(tilt: float) -> tuple[float, float]:
-        return float(np.min(hy - tilt * hk)), float(np.max(ly - tilt * lk))
 
-    tilt = _golden(lambda t: ends(t)[0] - ends(t)[1], -spread * slope, spread * slope)
-    top, bottom = ends(tilt)
-    total = slope + tilt
-    return Line(base + (top + bottom) / 2 - total * centre, total, (top - bottom) / 2)
+def mean_between(
+    k_low: Float, low: Float, k_high: Float, high: Float, slope: float, spread: float
+) -> tuple[Line, float] | None:
+    """The mean of all lines between the points with a slope within `spread` (relative) of `slope`, and one sigma.
+
+    All are held equally likely; sigma is the worse of the two ends'. None where none passes between.
+    """
+    band = _Band(k_low, low, k_high, high, slope)
+    edge = spread * slope
+    best = _golden(band.width, -edge, edge)
+    if band.width(best) <= 0:
+        return None
+    first, last = _border(band, best, -edge), _border(band, best, edge)
+    tilts = np.linspace(first, last, 65)
+    ends = np.array([band.ends(tilt) for tilt in tilts.tolist()])
+    width, level = np.maximum(ends[:, 0] - ends[:, 1], 0.0), ends.mean(axis=1)
+    weight = width / width.sum() if width.sum() > 0 else np.full(len(tilts), 1 / len(tilts))
+    tilt, middle = float(weight @ tilts), float(weight @ level)
+    reach = np.array([min(k_low.min(), k_high.min()), max(k_low.max(), k_high.max())]) - band.centre
+    apart = (level - middle)[:, None] + (tilts - tilt)[:, None] * reach[None, :]
+    sigma = float(np.sqrt(np.max(weight @ (apart**2 + (width**2 / 12)[:, None]))))
+    return band.line(middle, tilt, band.width(best) / 2), sigma
+
+
+class _Band:
+    """Room between two sets of points, as a function of a line's tilt against `slope`; coordinates reduced by it."""
+
+    def __init__(self, k_low: Float, low: Float, k_high: Float, high: Float, slope: float) -> None:
+        self.slope = slope
+        self.centre = (float(np.mean(k_low)) + float(np.mean(k_high))) / 2
+        self.base = float(np.min(high))
+        hk, hy = k_high - self.centre, (high - self.base) - slope * (k_high - self.centre)
+        lk, ly = k_low - self.centre, (low - self.base) - slope * (k_low - self.centre)
+        upper, lower = lower_hull(hk, hy), lower_hull(lk, -ly)
+        self.hk, self.hy, self.lk, self.ly = hk[upper], hy[upper], lk[lower], ly[lower]
+
+    def ends(self, tilt: float) -> tuple[float, float]:
+        """Highest and lowest level at the centre that the points leave."""
+        return float(np.min(self.hy - tilt * self.hk)), float(np.max(self.ly - tilt * self.lk))
+
+    def width(self, tilt: float) -> float:
+        """The room between them; concave in the tilt."""
+        top, bottom = self.ends(tilt)
+        return top - bottom
+
+    def line(self, level: float, tilt: float, margin: float) -> Line:
+        """A line of the band in the points' own coordinates."""
+        total = self.slope + tilt
+        return Line(self.base + level - total * self.centre, total, margin)
+
+
+def _border(band: _Band, inside: float, outside: float) -> float:
+    """The tilt between `inside` and `outside` at which the room ends."""
+    if band.width(outside) > 0:
+        return outside
+    for _ in range(40):
+        middle = (inside + outside) / 2
+        inside, outside = (middle, outside) if band.width(middle) > 0 else (inside, middle)
+    return inside
 
 
 def _golden(value: Callable[[float], float], low: float, high: float) -> float:
