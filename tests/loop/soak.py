@@ -22,6 +22,7 @@ from typing import Any
 
 import h5py
 import numpy as np
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from tests.loop.ledger import gauge_values, ring_values
@@ -60,7 +61,8 @@ class Server:
 
     def watch(self) -> None:
         """Follow the live stream as a page does."""
-        with connect(self.address.replace("http", "ws", 1) + "/live", max_size=None) as socket:
+        address = self.address.replace("http", "ws", 1) + "/live"
+        with contextlib.suppress(ConnectionClosed), connect(address, max_size=None) as socket:
             while not self.leave.is_set():
                 with contextlib.suppress(TimeoutError):
                     self._note(json.loads(socket.recv(timeout=0.5)))

@@ -105,7 +105,7 @@ def test_the_stand_can_be_looked_at_and_prepared_without_a_run(simulated: Simula
     assert rest_check(simulated.stand).ok
 
 
-@pytest.mark.parametrize("speed", ["1", "max"])
+@pytest.mark.parametrize("speed", [pytest.param("1", marks=pytest.mark.slow), "max"])
 def test_a_replay_through_devices_gives_the_same_bytes_and_with_its_arrivals_the_same_grid(
     simulated: Simulated, tmp_path: Path, speed: str
 ) -> None:
