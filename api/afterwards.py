@@ -37,13 +37,6 @@ def compare_run(
     return {"json": str(json_file), "page": str(page), "comparison": content}
 
 
-def can_diagnose() -> bool:
-    """Whether this version has a diagnosis; found by looking, nothing is loaded."""
-    import twin.diagnosis
-
-    return any(module.name == "diagnose" for module in pkgutil.iter_modules(twin.diagnosis.__path__))
-
-
 def diagnose_runs(
     recordings: Sequence[Path], tell: Tell, *, json_file: Path | None = None, page: Path | None = None, **options: Any
 ) -> dict[str, Any]:
@@ -62,10 +55,17 @@ def diagnose_runs(
                 raise
             skipped.append({"file": path.name, "why": str(error)})
     verdict = diagnose(runs, skipped=skipped, progress=tell, **options)
-    json_file = json_file or beside(recordings[-1], "diagnosis")
-    page = page or beside(recordings[-1], "diagnosis-page")
-    verdict.write(json_file, page)
-    return {"json": str(json_file), "page": str(page), "verdict": verdict.to_json()}
+    json_file, page = json_file or beside(recordings[-1], "diagnosis"), page or beside(recordings[-1], "diagnosis-page")
+    tell("writing the verdict", None)
+    written = verdict.write(json_file, page if _has_page() else None)
+    return {"json": str(json_file), "page": str(page) if _has_page() else None, "verdict": written.to_json()}
+
+
+def _has_page() -> bool:
+    """Whether this version draws the verdict's page."""
+    import twin.report
+
+    return any(module.name == "diagnosis" for module in pkgutil.iter_modules(twin.report.__path__))
 
 
 def write_text(path: Path, text: str) -> None:

@@ -100,16 +100,11 @@ def describe_profiles() -> list[dict[str, Any]]:
 
 
 def describe_causes(name: str | None = None) -> list[dict[str, Any]]:
-    """The catalogue's causes, or the one of that name; empty where there is no catalogue."""
+    """The catalogue's causes, or the one of that name; InputError listing the known ones."""
     import twin.causes
-    from twin.plugins import names
+    from twin.causes._kind import Cause
 
-    known = names(twin.causes)
-    if not known:
-        return []
-    from twin.causes.cause import Cause
-
-    return [_describe_cause(load(twin.causes, found, Cause)) for found in ([name] if name else known)]
+    return [_describe_cause(load(twin.causes, found, Cause)) for found in ([name] if name else names(twin.causes))]
 
 
 def _describe_cause(cause: Any) -> dict[str, Any]:

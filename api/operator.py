@@ -11,7 +11,6 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from api.afterwards import can_diagnose
 from api.catalogue import model_names
 from api.devices import resting, running
 from api.experiment import Experiment, State
@@ -196,8 +195,7 @@ class Operator:
         self.hub.publish_state("runs", {"newest": last.run})
         if closed is not None:
             self.jobs.submit("compare", [closed])
-            if can_diagnose():
-                self.jobs.submit("diagnose", [*campaign, closed])
+            self.jobs.submit("diagnose", [*campaign, closed])
         self._look()
 
     def _changed(self, experiment: Experiment) -> None:

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from api.cli._console import out, progress, score_rows, table
-from api.cli._errors import NotYet
 from api.experiment import Experiment, State
 from stand.errors import DeviceError, SafetyTrip
 
@@ -79,10 +78,8 @@ def diagnose_and_tell(
     paths: list[Path], *, json: Path | None = None, page: Path | None = None, silent: bool = False, **options: Any
 ) -> dict[str, Any]:
     """Diagnose recordings and print the verdict in words."""
-    from api.afterwards import can_diagnose, diagnose_runs
+    from api.afterwards import diagnose_runs
 
-    if not can_diagnose():
-        raise NotYet("the diagnosis")
     with progress("diagnosing") as report:
         done = diagnose_runs(paths, report, json_file=json, page=page, **options)
     if not silent:
@@ -114,7 +111,8 @@ def _tell(done: dict[str, Any]) -> None:
     ratio = (verdict.get("gain") or {}).get("prediction_error_ratio")
     if ratio is not None:
         out.print(f"Prediction error on data not fitted: {ratio:.2f} times the calibrated baseline's")
-    out.print(f"diagnosis   {done['page']}\n            {done['json']}")
+    paths = [path for path in (done["page"], done["json"]) if path]
+    out.print("diagnosis   " + "\n            ".join(paths))
 
 
 def _sizes(cause: dict[str, Any]) -> str:

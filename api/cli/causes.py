@@ -17,11 +17,8 @@ def command(
 ) -> None:
     """Run the command."""
     from api.catalogue import describe_causes
-    from api.cli._errors import NotYet
 
     found = describe_causes(name)
-    if not found:
-        raise NotYet("the catalogue of causes")
     if not quiet(json):
         rows = [[c["name"], c["acts_on"], c["title"], ", ".join(c["rivals"]) or None] for c in found]
         out.print(table("Causes", ("name", "acts on", "what it is", "rivals"), rows))

@@ -9,8 +9,8 @@ from typing import Annotated, Any
 import typer
 
 from api.cli._console import JsonOption, err, out, write_json
-from api.cli._errors import NotYet
 from api.cli._stand import configured, serve_arguments
+from stand.errors import InputError
 
 EXAMPLE = "stand demo --hide guide-viscous-drag --duration 10"
 
@@ -48,8 +48,8 @@ def _diagnose(path: Path) -> dict[str, Any]:
 
     try:
         return {"verdict": diagnose_and_tell([path])["verdict"]}
-    except NotYet:
-        out.print("diagnosis   not yet in this version")
+    except InputError as error:
+        out.print(f"diagnosis   none of this run: {error}")
         return {"verdict": None}
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -20,9 +20,11 @@ def command(
 ) -> None:
     """Run the command."""
     from api.cli._after import diagnose_and_tell
+    from api.cli._errors import NotYet
 
-    options: dict[str, Any] = {"dask": dask} if dask else {}
+    if dask:
+        raise NotYet("spreading a diagnosis over a Dask cluster")
     beside = None if json is None or quiet(json) else json
-    done = diagnose_and_tell(recordings, json=beside, page=page, silent=quiet(json), **options)
+    done = diagnose_and_tell(recordings, json=beside, page=page, silent=quiet(json))
     if quiet(json):
         write_json(done["verdict"], json)

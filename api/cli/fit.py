@@ -22,8 +22,8 @@ def command(
 ) -> None:
     """Run the command."""
     from stand.recording import read_recording
+    from twin.fit import fit
 
-    fit = _engine()
     runs = [read_recording(path) for path in recordings]
     names = parameter or ["fibre_stiffness", "fibre_damping", "guide_friction"]
     with progress("fitting") as report:
@@ -32,16 +32,6 @@ def command(
     if not quiet(json):
         out.print(table(f"{model} fitted to {len(runs)} recording(s)", COLUMNS, _rows(content), right=COLUMNS[1:3]))
     write_json(content, json)
-
-
-def _engine() -> Any:
-    from api.cli._errors import NotYet
-
-    try:
-        from twin.fit import fit
-    except ImportError:
-        raise NotYet("the fit") from None
-    return fit
 
 
 def _rows(content: dict[str, Any]) -> list[list[object]]:
