@@ -38,12 +38,19 @@ class Operator:
     """Owns the stand for as long as the server lives; every method may be called from any thread.
 
     title: how the screens call the stand. mount(mass): tells a simulated stand its added mass before a run.
+    diagnose: whether each run is diagnosed after its end.
     """
 
     def __init__(
-        self, stand: Stand, folder: Path, *, title: str = "", mount: Callable[[float], None] = lambda mass: None
+        self,
+        stand: Stand,
+        folder: Path,
+        *,
+        title: str = "",
+        mount: Callable[[float], None] | None = None,
+        diagnose: bool = True,
     ) -> None:
-        self.stand, self.title, self._mount = stand, title or stand.name, mount
+        self.stand, self.title, self._mount, self._diagnose = stand, title or stand.name, mount, diagnose
         self.hub, self.runs = Hub(), Runs(folder)
         self.jobs = Jobs(self._job_changed)
         self._busy = threading.Lock()
@@ -92,7 +99,8 @@ class Operator:
         self._take()
         try:
             self._refuse_after_trip()
-            self._mount(setup.added_mass)
+            if self._mount is not None:
+                self._mount(setup.added_mass)
             run = RunOrder(excitation=excitation, setup=setup, folder=self.runs.folder, comment=order.comment)
             self._handle = start(self.stand, run)
         except BaseException:
@@ -178,7 +186,9 @@ class Operator:
         follower = Follower(experiment, beside, changed=self._changed, sampled=stream.sampled, health=self._health)
         try:
             last = follower.follow(handle.events())
-            self._tripped = last.why if last.state in (State.TRIPPED, State.EMERGENCY) else ""
+            if last.state in (State.TRIPPED, State.EMERGENCY):
+                self._tripped = last.why
+                self._tell_stand("tripped", resting(self.stand, "unknown"), self._tripped)
         except Exception as error:
             handle.stop(f"the server failed: {error}")
             last = follower.experiment.now(state=State.FAILED, why=f"{type(error).__name__}: {error}")
@@ -195,7 +205,8 @@ class Operator:
         self.hub.publish_state("runs", {"newest": last.run})
         if closed is not None:
             self.jobs.submit("compare", [closed])
-            self.jobs.submit("diagnose", [*campaign, closed])
+            if self._diagnose or campaign:
+                self.jobs.submit("diagnose", [*campaign, closed])
         self._look()
 
     def _changed(self, experiment: Experiment) -> None:

@@ -19,6 +19,7 @@ def command(
     port: Annotated[int, typer.Option(help="0 takes a free one.", min=0, max=65535)] = 8000,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="The folder of runs.")] = None,
     token_file: Annotated[Path | None, typer.Option(metavar="FILE", help="Take the token from here.")] = None,
+    diagnose: Annotated[bool, typer.Option(help="Diagnose each run after its end.")] = True,
     hide: HideOption = None,
     seed: SeedOption = None,
 ) -> None:
@@ -39,7 +40,7 @@ def command(
         secret = {"token": read_token(token_file)} if token_file else {}
         access = Access(cookie=f"stand_token_{number}", **secret)
         title = f"{rig.name}{' (simulated)' if mock else ''}"
-        operator = Operator(rig, folder, title=title, mount=mock.mount if mock else lambda mass: None)
+        operator = Operator(rig, folder, title=title, mount=mock.mount if mock else None, diagnose=diagnose)
         _announce(number, access, shown=token_file is None)
         config = uvicorn.Config(
             create_app(operator, access), log_level="warning", ws="websockets-sansio", timeout_graceful_shutdown=2

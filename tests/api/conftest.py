@@ -69,7 +69,18 @@ def patient(stand: Stand) -> Stand:
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
     folder = tmp_path_factory.mktemp("runs")
     (folder / "stand.toml").write_text(patient(load_stand()).to_toml())
-    options = ["--simulated", "--stand", str(folder / "stand.toml"), "--seed", "1", "--port", "0", "--out", str(folder)]
+    options = [
+        "--simulated",
+        "--no-diagnose",
+        "--stand",
+        str(folder / "stand.toml"),
+        "--seed",
+        "1",
+        "--port",
+        "0",
+        "--out",
+        str(folder),
+    ]
     command = [sys.executable, "-m", "api.cli", "serve", *options]
     with (folder / "server.log").open("w") as log:
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True)
