@@ -110,6 +110,7 @@ class Composition:
         s = self.setup(z, run)
         row = np.zeros(k.CONSTANTS)
         row[k.K_SYSTEM] = _SYSTEM[s.system]
+        row[k.K_OWN] = self.own_states
         if s.system is System.LINEAR_DRIVE:
             row[[k.K_MASS, k.K_VS, k.K_C1, k.K_C2]] = s.moving_mass, 0.002, 1.0, 1.0
             return row

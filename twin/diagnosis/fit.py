@@ -150,9 +150,9 @@ def reduce(linear: Linear, starts: Float, z: Float) -> Reduced:
     vector = np.einsum("wsl,wl->ws", own, r) - starts
     cross = J.transpose(1, 0, 2) @ own.transpose(0, 2, 1)
     solved = np.linalg.solve(matrix, np.concatenate([cross.transpose(0, 2, 1), vector[..., None]], axis=2))
-    whole = J.reshape(len(J), -1)
-    H = whole @ whole.T - np.einsum("wps,wsq->pq", cross, solved[..., :-1])
-    g = whole @ r.reshape(-1) - np.einsum("wps,ws->p", cross, solved[..., -1])
+    each = J.transpose(1, 0, 2)  # window by window: small products stay in one thread
+    H = (each @ J.transpose(1, 2, 0)).sum(axis=0) - (cross @ solved[..., :-1]).sum(axis=0)
+    g = np.einsum("pwl,wl->p", J, r) - np.einsum("wps,ws->p", cross, solved[..., -1])
     return Reduced(H + np.diag(linear.prior), g - linear.prior * z, matrix, vector, cross)
 
 
@@ -198,7 +198,7 @@ def fit(
     for turn in range(iterations):
         spread = scale(problem, fitted.residual)
         cost = loss(fitted.residual, spread) + prior_cost(model, fitted.z, fitted.starts)
-        known = linear if turn % 2 and model.causes else None
+        known = linear if turn % 2 else None
         linear = linearise(problem, fitted, spread, free, known)
         reduced = reduce(linear, fitted.starts, fitted.z)
         better = None

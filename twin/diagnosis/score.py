@@ -56,7 +56,8 @@ def score(problem: Problem, fitted: Fitted, causes: Iterable[Cause], *, share: f
     reduced = reduce(linear, fitted.starts, fitted.z)
     own = linear.starts.transpose(1, 0, 2)
     root = np.sqrt(weigh(fitted.residual, spread)) / spread * problem.windows.use
-    here = problem.predict(fitted.model, fitted.z, fitted.starts)
+    simulated, _ = problem.simulate(fitted.model, fitted.z, fitted.starts)
+    here = problem.sense(fitted.model, fitted.z, simulated)
     inverse = np.linalg.pinv(reduced.matrix, rcond=1e-12)
     reach = survey(problem)
     enough = max(25.0, VISIBLE * float(np.sum(problem.windows.use)) / 2)
@@ -65,7 +66,10 @@ def score(problem: Problem, fitted: Fitted, causes: Iterable[Cause], *, share: f
     def one(cause: Cause, values: Mapping[str, float]) -> tuple[float, float, Mapping[str, float]]:
         model = Composition(fitted.model.setups, (*fitted.model.causes, cause))
         z = model.put(fitted.model.carry(fitted.z, model), cause, values)
-        there = problem.predict(model, z, fitted.starts)
+        if cause.senses is not None and cause.before is None and cause.after is None:
+            there = problem.sense(model, z, simulated)
+        else:
+            there = problem.predict(model, z, fitted.starts)
         d = np.nan_to_num(np.clip(there - here, -1.0, 1e4) * root).reshape(len(there), -1)
         gain, amplitude, power = _gain(d, linear.columns, own, linear.residual, reduced, inverse)
         size = values[cause.parameters[0].name] - cause.parameters[0].value
@@ -89,7 +93,7 @@ def _gain(d, J, own, r, reduced, inverse):  # type: ignore[no-untyped-def]
     with_starts = np.linalg.solve(reduced.starts_matrix, np.stack([cross, reduced.starts_vector], axis=-1))
     dd = float(np.sum(d * d) - np.sum(cross * with_starts[..., 0]))
     dr = float(np.sum(d * r) - np.sum(cross * with_starts[..., 1]))
-    Jd = J.reshape(len(J), -1) @ d.reshape(-1) - np.einsum("wps,ws->p", reduced.cross, with_starts[..., 0])
+    Jd = np.einsum("pwl,wl->p", J, d) - np.einsum("wps,ws->p", reduced.cross, with_starts[..., 0])
     dd -= float(Jd @ inverse @ Jd)
     dr -= float(Jd @ inverse @ reduced.vector)
     if dd <= 1e-9:

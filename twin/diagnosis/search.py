@@ -19,6 +19,7 @@ SHORT_LIST = 7
 FINALISTS = 3
 MOST = 4
 NEEDED = 0.012
+NOISE = 1.12
 
 
 @dataclass
@@ -50,7 +51,7 @@ def gained(problem: Problem, before: Fitted, after: Fitted) -> float:
     return float(np.max((old - new) / np.maximum(old, 1e-12)))
 
 
-def calibrate(problem: Problem, causes: Sequence[Cause] = (), iterations: int = 8) -> Fitted:
+def calibrate(problem: Problem, causes: Sequence[Cause] = (), iterations: int = 6) -> Fitted:
     """The base model, or one with causes from null, fitted within the priors."""
     model = Composition(tuple(r.setup for r in problem.runs), tuple(causes))
     z = model.zero()
@@ -79,9 +80,14 @@ def try_causes(
 ) -> list[Fitted]:
     """Refits of the most promising causes, best first; those far behind are only begun."""
     begun: list[Fitted] = []
+    settled: set[str] | None = None
     for s in scored[:SHORT_LIST]:
+        if settled is not None and s.cause.name not in settled and s.gain < 0.5 * scored[0].gain:
+            continue
         model, z = begin(fitted, s)
         begun.append(fit(problem, model, z, fitted.starts, iterations=quick))
+        if settled is None and error(problem, begun[-1].residual).max() < NOISE:
+            settled = set(s.cause.rivals)
     begun = ranked(problem, begun)
     done: list[Fitted] = []
     for f in begun[:FINALISTS]:

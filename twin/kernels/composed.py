@@ -67,7 +67,7 @@ def rates(y, q, c, time, x, xd, before, bp, after, ap, taut1, taut2):  # type: i
     q[k.SMOOTH] = math.tanh(ratio) if abs(ratio) < 18.0 else math.copysign(1.0, ratio)
     q[k.G] = 0.0
     q[k.STIFF] = 0.0
-    for i in range(k.STATES):
+    for i in range(int(c[k.K_OWN])):
         q[k.AUX + i] = y[4 + i]
         q[k.RATE + i] = 0.0
     if c[k.K_SYSTEM] == k.AXIS:
@@ -96,7 +96,7 @@ def _derivative(q, c, dy):  # type: ignore[no-untyped-def]
         dy[1] = (q[k.X] + q[k.E1] - q[k.G]) / q[k.MASS]
         dy[2] = 0.0
         dy[3] = 0.0
-    for i in range(k.STATES):
+    for i in range(int(c[k.K_OWN])):
         dy[4 + i] = q[k.RATE + i]
 
 
@@ -119,7 +119,7 @@ def hermite(row, theta, dt, out):  # type: ignore[no-untyped-def]
 def _step(y, q, c, row, start, theta, h, dt, before, bp, after, ap, taut1, taut2, work, out):  # type: ignore[no-untyped-def]
     """One Runge-Kutta step of h seconds from y (to which q belongs) into out; the modes stay as they are."""
     drive = work[5]
-    n = 4 + k.STATES
+    n = 4 + int(c[k.K_OWN])
     _derivative(q, c, work[0])
     for stage in range(1, _STAGES):
         fraction = 1.0 if stage == 3 else 0.5
@@ -210,7 +210,7 @@ def advance(y, q, c, row, start, dt, before, bp, after, ap, work, out, mode):  #
             rates(out, q, c, start + (done + theta) * dt, work[5][0], work[5][1], before, bp, after, ap, 1, 1)
         else:
             theta = _located(y, q, c, row, start, done, theta, dt, before, bp, after, ap, work, out, mode)
-        for i in range(4 + k.STATES):
+        for i in range(4 + int(c[k.K_OWN])):
             y[i] = out[i]
         done += theta
         if not abs(y[1]) < 100.0:
@@ -222,7 +222,7 @@ def advance(y, q, c, row, start, dt, before, bp, after, ap, work, out, mode):  #
 def windows(starts, own, constants, run, first, length, drive, dt, before, bp, after, ap, offset, out, status):  # type: ignore[no-untyped-def]
     """Simulate every window.
 
-    starts [w, 4] u, v, s, w; own [w, 8] the causes' states; constants [runs, 13]; run, first [w] the window's run and
+    starts [w, 4] u, v, s, w; own [w, 8] the causes' states; constants [runs, 14]; run, first [w] the window's run and
     its first sample there; offset [runs] where a run begins in drive [all, 2] (x, x'); out [w, length, 5] u, v, F, x'', s;
     status [w] 0 or 2. A window begins after and ends before the run's first and last sample.
     """
@@ -284,7 +284,7 @@ def history(path, drive, c, own, dt, before, bp, after, ap, out):  # type: ignor
                     y[m] = path[i, m] + theta * (path[i + 1, m] - path[i, m])
                 x = drive[i, 0] + theta * (drive[i + 1, 0] - drive[i, 0])
                 xd = drive[i, 1] + theta * (drive[i + 1, 1] - drive[i, 1])
-                for m in range(k.STATES):
+                for m in range(int(c[k.K_OWN])):
                     y[4 + m] = state[m] + (h * slope[m] if half else 0.0)
                 rates(y, q, c, (i + theta) * dt, x, xd, before, bp, after, ap, 1, 1)
                 _gaps(q, gap)
@@ -303,7 +303,7 @@ def history(path, drive, c, own, dt, before, bp, after, ap, out):  # type: ignor
                         1 if gap[0] > 0.0 else 0,
                         1 if gap[1] > 0.0 else 0,
                     )
-                for m in range(k.STATES):
+                for m in range(int(c[k.K_OWN])):
                     if half:
                         state[m] += 0.5 * h * (slope[m] + q[k.RATE + m])
                     slope[m] = q[k.RATE + m]

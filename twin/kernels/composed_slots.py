@@ -44,6 +44,6 @@ STATES: Final = 8
 SIZE: Final = 48
 
 # columns of a run's constants
-(K_MASS, K_WEIGHT, K_C1, K_C2, K_B1, K_B2, K_RIM, K_FC, K_VS, K_REST, K_RADIUS, K_OFFSET, K_SYSTEM) = range(13)
-CONSTANTS: Final = 13
+(K_MASS, K_WEIGHT, K_C1, K_C2, K_B1, K_B2, K_RIM, K_FC, K_VS, K_REST, K_RADIUS, K_OFFSET, K_SYSTEM, K_OWN) = range(14)
+CONSTANTS: Final = 14
 WFPD, WF, AXIS = 0, 1, 2
