@@ -19,6 +19,7 @@ from stand.recording.model import Quality
 
 KEEP = 6000
 REFIT, RECENT, HISTORY = 0.25, 1.0, 20.0
+THIN, POLLS = 0.02, 2.5
 _ORDER = ("drive", "dial_gauge", "force_gauge")
 _BITS = (Quality.DRIVE_POSITION, Quality.WEIGHT_POSITION, Quality.FIBRE_FORCE)
 
@@ -51,23 +52,31 @@ class _Channel:
         self.values = np.concatenate((self.values, block.values))[-KEEP:]
         self.flags = np.concatenate((self.flags, block.flags))[-KEEP:]
         self.next, self.newest = first + len(block), block.arrival
-        self.reads.append((float(self.next), block.arrival, block.request or block.arrival))
-        while self.reads and self.reads[0][1] < block.arrival - HISTORY:
-            self.reads.popleft()
-        if block.arrival > self.fitted + REFIT and len(self.reads) >= 10:
+        self._remember((float(self.next), block.arrival, block.request or block.arrival))
+        wait = REFIT if self.offset is None or not isinstance(self.config, DriveConfig) else 4 * REFIT
+        if block.arrival > self.fitted + wait and len(self.reads) >= 10:
             self.fitted = block.arrival
             self._fit()
+
+    def _remember(self, read: tuple[float, float, float]) -> None:
+        """Polls as they are; of a gauge's reads the promptest in each short while, so that a fit costs little."""
+        drive = isinstance(self.config, DriveConfig)
+        last = self.reads[-1] if self.reads else None
+        if drive or last is None or int(read[1] / THIN) != int(last[1] / THIN):
+            self.reads.append(read)
+        elif read[1] - self.nominal * read[0] < last[1] - self.nominal * last[0]:
+            self.reads[-1] = read
+        while self.reads[0][1] < read[1] - (POLLS if drive else HISTORY):
+            self.reads.popleft()
 
     def _fit(self) -> None:
         count, arrival, request = (np.array(part) for part in zip(*self.reads, strict=True))
         if isinstance(self.config, DriveConfig):
-            recent = arrival > arrival[-1] - 3.0
-            clock = fit_ring(count[recent], request[recent], arrival[recent], self.nominal, self.config.latency, 0.0)
+            clock = fit_ring(count, request, arrival, self.nominal, self.config.latency, 0.0)
             self.offset, self.period = clock.offset, clock.period
             return
         if arrival[-1] - arrival[0] > 2.0:
-            thin = max(1, len(count) // 4000)
-            slope = line_below(count[::thin], arrival[::thin], self.nominal).slope
+            slope = line_below(count, arrival, self.nominal).slope
             self.period = float(np.clip(slope, self.nominal * (1 - 3e-4), self.nominal * (1 + 3e-4)))
         recent = arrival > arrival[-1] - RECENT
         earliest = float(np.min(arrival[recent] - self.period * (count[recent] - 1)))

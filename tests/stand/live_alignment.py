@@ -147,11 +147,12 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--first", type=int, default=0, help="the first seed")
     parser.add_argument("--seconds", type=float, default=10.0)
     parser.add_argument("--prompt", action="store_true", help="without the adapters' 16 ms timers")
     arguments = parser.parse_args()
     print(f"{'seed':>4} {'shape':18} {'F':>9} {'u':>9} {'x':>9} {'x rms':>8} {'stated':>8} missing  (worst us, um)")
-    for seed in range(arguments.seeds):
+    for seed in range(arguments.first, arguments.first + arguments.seeds):
         for shape in FREQUENCY:
             print(run(seed, shape, arguments.seconds, not arguments.prompt), flush=True)
 
