@@ -26,4 +26,5 @@ def recorded_stand(recording: Path) -> tuple[Stand, float]:
             raise InputError("no /entry/configuration", where=str(recording), remedy=remedy)
         text = stored[()].decode()
     stand = load_stand_text(text, f"{recording}:/entry/configuration")
-    return stand.with_setup(run.setup), float(run.time[-1] - run.time[0]) + run.dt
+    setup = run.setup.with_values(uncertainty=dict(run.setup.uncertainty))  # a plain dict goes to another process
+    return stand.with_setup(setup), float(run.time[-1] - run.time[0]) + run.dt

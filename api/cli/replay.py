@@ -16,7 +16,10 @@ def command(
     recording: Annotated[Path, typer.Argument(metavar="RUN.h5", help="A recording with raw streams.")],
     speed: Annotated[str, typer.Option(metavar="N|max", help="Times true speed, or as fast as possible.")] = "1",
     inject: Annotated[
-        bool, typer.Option("--inject", help="Use the recorded arrivals: the grid comes out bit-equal.")
+        bool,
+        typer.Option(
+            "--inject", help="Use the recorded arrivals (as at any speed but 1): the grid comes out bit-equal."
+        ),
     ] = False,
     model: Annotated[str, typer.Option(help="The model that runs beside.")] = "force",
     out: Annotated[Path, typer.Option(metavar="DIR", help="Where the new recording goes.")] = Path("runs/replay"),
@@ -35,7 +38,13 @@ def command(
     rig, seconds = recorded_stand(recording)
     out.mkdir(parents=True, exist_ok=True)
     with SimulatedStand(("replay", str(recording), "--speed", speed)) as mock:
-        order = RunOrder(folder=out, replay=True, seconds=seconds, speed=factor, inject=recording if inject else None)
+        order = RunOrder(
+            folder=out,
+            replay=True,
+            seconds=seconds,
+            speed=factor,
+            inject=recording if inject or factor != 1.0 else None,
+        )
         title = f"replay of {recording.name}"
         last, beside = run_and_watch(
             rig.with_links(mock.announcement), order, model=model, seconds=seconds, title=title

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
 import h5py
@@ -10,6 +11,7 @@ import httpx
 import pytest
 from websockets.exceptions import InvalidStatus
 
+from api.cli import run
 from tests.api.conftest import ORDER, Server
 
 
@@ -84,7 +86,7 @@ def done(server: Server) -> tuple[dict[str, Any], list[dict[str, Any]]]:
 def test_an_experiment_ends_as_a_run_in_the_list(server: Server, done: tuple[dict[str, Any], Any]) -> None:
     view, _ = done
     assert (view["state"], view["why"]) == ("finished", "")
-    run = server.until(f"/runs/{view['run']}", lambda run: run["jobs"])
+    run = server.until(f"/runs/{view['run']}", lambda found: found["jobs"])
     assert run["complete"]
     assert run["seconds"] == pytest.approx(view["seconds"], abs=0.2)
     with h5py.File(server.folder / f"{view['run']}.h5") as file:
@@ -116,6 +118,19 @@ def test_after_the_run_comparison_and_page_lie_beside_it(server: Server, done: t
     assert "sandbox" in page.headers["content-security-policy"]
     assert "<html" in page.text
     assert server.http.get(run["links"]["file"]).content[:4] == b"\x89HDF"
+
+
+def test_a_replay_of_the_run_comes_to_the_same_scores(
+    server: Server, done: tuple[dict[str, Any], Any], tmp_path: Path
+) -> None:
+    name = done[0]["run"]
+    server.until(f"/runs/{name}", lambda run: "comparison" in run["links"])
+    recorded, told = server.folder / f"{name}.h5", tmp_path / "told.json"
+    assert run(["replay", str(recorded), "--speed", "max", "--out", str(tmp_path), "--json", str(told)]) == 0
+    again = json.loads(told.read_text())["comparison"]["baseline"]["runs"][0]
+    before = json.loads((server.folder / f"{name}.comparison.json").read_text())["baseline"]["runs"][0]
+    for channel in ("weight_position", "fibre_force"):
+        assert again[channel]["R"] == before[channel]["R"]
 
 
 def test_stopping_keeps_what_was_recorded(server: Server, done: object) -> None:
