@@ -79,7 +79,7 @@ def rows() -> Iterator[Row]:
     yield against_scipy()
     yield from models.point_mass()
     yield from models.ancf()
-    for name, cases, tolerance, goal in (("taut", force.taut, 1e-3, 1500), ("snatch", force.snatching, 1e-12, 400)):
+    for name, cases, tolerance, goal in (("taut", force.taut, 1e-7, 1500), ("snatch", force.snatching, 1e-11, 400)):
         found = force.many(cases(), tolerance)
         rate, off = found["runs_per_second"], found["error_refined"]
         yield row(f"many force runs, {name}", f"{goal} runs/s", rate / goal, off, f"{rate:.0f} runs/s")

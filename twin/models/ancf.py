@@ -10,8 +10,9 @@ import numpy as np
 from stand.setup import Setup, System
 from twin.friction import packed
 from twin.kernels import fibre_ancf_layout as layout
-from twin.kernels.fibre_layout import DRAG, DRY, LENGTH, MASS, RADIUS, RIG, RIM, WEIGHT, pack_rig
+from twin.kernels.fibre_layout import LENGTH, RADIUS, RIG, pack_rig
 from twin.model import FibreModel, Float, Start
+from twin.models._mesh import mesh, rest, trimmed
 from twin.models._place import Placed, place
 from twin.parameter import Parameter, Source
 
@@ -28,18 +29,6 @@ _PARAMETERS = (
     Parameter("evenness", "-", 1e-4, (0.0, 1.0), None, "share of EA against uneven stretch within an element"),
 )
 _POINTS = 12  # contact points of an element
-_MARGIN = 0.003  # m of fine elements on either side of arc and stroke
-_SETTLE, _SETTLE_DRAG = 100, 300.0  # samples, 1/s
-
-
-def mesh(length: float, first: float, last: float, elements: int, fine: int) -> Float:
-    """Lengths of the elements [elements], m: `fine` of them between `first` and `last`, the rest on both sides."""
-    if last <= first:
-        return np.full(elements, length / elements)
-    fine = min(fine, elements - 2)
-    left = max(1, min(elements - fine - 1, round((elements - fine) / 2)))
-    parts = ((first, left), (last - first, fine), (length - last, elements - fine - left))
-    return np.concatenate([np.full(n, size / n) for size, n in parts])
 
 
 def _constants(setup: Setup, parameters: Mapping[str, float]) -> Float:
@@ -49,30 +38,9 @@ def _constants(setup: Setup, parameters: Mapping[str, float]) -> Float:
     c = pack_rig(setup, layout.OWN + extra, sliding=friction, drag=drag)
     lengths = RIG + layout.OWN
     c[RIG:lengths] = [count, _POINTS, bending, contact, bristle, step, lengths, lengths + count, evenness]
-    c[lengths : lengths + count] = mesh(c[LENGTH], *_fine(c, setup, stroke), count, round(fine))
+    c[lengths : lengths + count] = mesh(c, setup, stroke, count, round(fine))
     c[lengths + count : lengths + extra] = layout.tables(_POINTS)
-    return _trimmed(c) if c[RADIUS] > 0.0 else c
-
-
-def _trimmed(c: Float) -> Float:
-    """The fibre made longer until the weight rests at u = 0: its bending stiffness lifts it off the ends of the arc."""
-    loose = c.copy()
-    loose[MASS], loose[DRY], loose[DRAG], loose[layout.STEP] = 0.02, 0.0, _SETTLE_DRAG, 1e-3
-    first = int(c[layout.LENGTHS])
-    for _ in range(3):
-        state = _state(loose, Start())
-        _hold(loose, state, Start())
-        loose[first] += state[0]
-    c[first] = loose[first]
-    return c
-
-
-def _fine(c: Float, setup: Setup, stroke: float) -> tuple[float, float]:
-    if c[RADIUS] == 0.0:
-        return 0.0, 0.0
-    arc = setup.pulley_radius * setup.wrap_angle
-    first = max(setup.weight_strand_length - stroke - _MARGIN, 0.1 * setup.weight_strand_length)
-    return first, min(setup.weight_strand_length + arc + _MARGIN, c[LENGTH] - 0.1 * setup.drive_strand_length)
+    return trimmed(_advance, lambda loose: _laid(loose, Start()), c, lengths, layout.STEP) if c[RADIUS] > 0.0 else c
 
 
 def _nodes(c: Float) -> Float:
@@ -94,7 +62,7 @@ def _pack(c: Float, u: float, points: Float, slopes: Float, s: float) -> Float:
     return np.concatenate([[u], slopes[0], inner, slopes[-1], [s]])
 
 
-def _state(c: Float, start: Start) -> Float:
+def _laid(c: Float, start: Start) -> Float:
     """The state of a fibre laid on its path, everything at rest."""
     n, points = 4 * int(c[layout.ELEMENTS]) + 2, int(c[layout.ELEMENTS]) * _POINTS
     placed, slopes, _ = _placed(c, start)
@@ -103,24 +71,12 @@ def _state(c: Float, start: Start) -> Float:
 
 
 def _start(c: Float, start: Start) -> Float:
-    n, state = 4 * int(c[layout.ELEMENTS]) + 2, _state(c, start)
-    held = c.copy()
-    held[MASS], held[WEIGHT], held[DRY], held[DRAG], held[layout.STEP] = 1e9, 0.0, 0.0, _SETTLE_DRAG, 1e-3
-    if start.s is not None or start.force is not None:
-        held[RIM] = 1e9
-    _hold(held, state, start)
+    n, state = 4 * int(c[layout.ELEMENTS]) + 2, _laid(c, start)
+    rest(_advance, c, state, start, layout.STEP)
     placed, _, rates = _placed(c, start)
     v = _pack(c, start.v, placed.velocities, rates, placed.rim_speed)
-    state[0], state[1], state[1 + n : 2 * n], state[2 * n : 3 * n] = start.u, v[0], v[1:], 0.0
+    state[1], state[1 + n : 2 * n], state[2 * n : 3 * n] = v[0], v[1:], 0.0
     return state
-
-
-def _hold(c: Float, state: Float, start: Start) -> None:
-    """Let the fibre find its shape on the pulley under `c`, the drive standing still."""
-    drive = np.zeros((_SETTLE + 1, 2))
-    drive[:, 0] = start.x
-    if _advance(c, state, drive, 1e-3, np.empty((_SETTLE, 3))) != 0:
-        raise RuntimeError("the fibre finds no shape on the pulley at rest")
 
 
 def _advance(c: Float, state: Float, drive: Float, dt: float, out: Float) -> int:
