@@ -19,7 +19,7 @@ install: $(STAMP) ## the environment in .venv, versions as in constraints.txt
 $(STAMP): pyproject.toml constraints.txt
 	test -d .venv || $(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt uv
-	$(BIN)/uv pip install --quiet --python $(BIN)/python -c constraints.txt -e '.[dev]'
+	$(BIN)/uv pip install --quiet --python $(BIN)/python -c constraints.txt --compile-bytecode -e '.[dev]'
 	touch $@
 
 demo: install ## one experiment on a simulated stand that hides an effect, compared and diagnosed
