@@ -26,8 +26,9 @@ from twin.model import Start
 NAME = "finite-segment"
 
 
+@pytest.mark.slow
 def test_many_segments_vibrate_as_a_rod_on_the_rims_bristles() -> None:
-    fine = {"segments": 110, "fine_segments": 90, "bending_stiffness": 1e-6}
+    fine = {"segments": 190, "fine_segments": 160, "bending_stiffness": 1e-6}
     expected = foundation_frequency(smooth(), 1e8, 3e7)
     assert free_vibration(NAME, smooth(), fine, 3) == pytest.approx(expected, rel=1e-3)
 
