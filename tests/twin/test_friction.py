@@ -23,7 +23,7 @@ def cycle(name: str, rate: float, **values: float) -> tuple[np.ndarray, np.ndarr
     chosen = law(name)
     force, slope = chosen.load()
     p, z, out = chosen.pack(values), 0.0, []
-    time = np.linspace(0.0, 2.0 / rate, 200_001)
+    time = np.linspace(0.0, 2.0 / rate, 20_001)
     speed = 2e-3 * 2 * np.pi * rate * np.sin(2 * np.pi * rate * time)
     dt = time[1] - time[0]
     for v in speed:
