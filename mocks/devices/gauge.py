@@ -94,6 +94,15 @@ class Gauge:
         wire = self.head.frame_bytes * self.line.byte_time
         return self.sensing.conversion + wire + self.adapter.jitter[0]
 
+    @property
+    def foresight(self) -> float:
+        """How long before a hand-over its bytes can be made, s: their samples are taken, and nothing else will leave.
+
+        A timer cuts frames: there the first byte of a frame counts, else the whole one.
+        """
+        wire = (1 if self.adapter.timer else self.head.frame_bytes) * self.line.byte_time
+        return self.sensing.conversion + wire + self.adapter.jitter[0]
+
     def prepare(self, now: float) -> None:
         """Sample up to `now`, to which the plant has come; answer the host. Nothing leaves here."""
         held, asked = self._watch(now)

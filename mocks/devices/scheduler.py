@@ -12,6 +12,7 @@ from mocks.devices.world import World
 
 LONGEST = 2e-3
 LEAD = 0.35e-3  # s before bytes are due, at most, in which they are made
+SOON = 1.05  # leads before bytes are due in which they may be made
 BEHIND = 0.25
 FLUSH = 0.25
 _TIMER_SLACK = 29
@@ -40,7 +41,7 @@ class Scheduler(threading.Thread):
         self.world, self.gauges, self.flush = world, gauges, flush
         self.lock = threading.Lock()
         self.error: BaseException | None = None
-        self.lead = min(LEAD, *(0.9 * gauge.latency for gauge in gauges))
+        self.lead = min(LEAD, *(0.9 * gauge.foresight for gauge in gauges))
         self._ending = threading.Event()
 
     def run(self) -> None:
@@ -55,25 +56,34 @@ class Scheduler(threading.Thread):
     def _loop(self) -> None:
         flushed = 0.0
         while not self._ending.is_set():
-            wake = min(g.wake for g in self.gauges)
-            sleep_until(min(wake, time.monotonic() + LONGEST) - self.lead)
-            with self.lock:
-                self.prepare(time.monotonic())
-            sleep_until(wake)
-            for gauge in self.gauges:
-                gauge.hand_over(time.monotonic())
-            if wake - flushed > FLUSH:
-                self.flush(wake)
-                flushed = wake
+            self._step()
+            if (now := time.monotonic()) - flushed > FLUSH:
+                self.flush(now)
+                flushed = now
 
-    def prepare(self, now: float) -> None:
-        """Everything up to now, short of handing it over; after a long stall in pieces, so that no sample is lost."""
+    def _step(self) -> None:
+        """What is due next is made and handed over; a look at the world where nothing is due for a while."""
+        wake = min(gauge.wake for gauge in self.gauges)
+        soon = time.monotonic() + LONGEST
+        sleep_until(min(wake - self.lead, soon))
+        with self.lock:
+            made = self.prepare(time.monotonic(), everything=wake - self.lead > soon)
+        for gauge in made:
+            sleep_until(gauge.wake)
+            gauge.hand_over(time.monotonic())
+
+    def prepare(self, now: float, everything: bool = False) -> list[Gauge]:
+        """Everything up to now, short of handing it over; after a long stall in pieces, so that no sample is lost.
+
+        Returns the gauges that are due soon, in their order: only what they have made by now may be handed over.
+        """
         while now - self.world.now > 2.0 * BEHIND:
             self.look(self.world.now + BEHIND)
         self.world.advance(now)
-        for gauge in self.gauges:
-            if gauge.wake <= now + 1.2 * self.lead:
-                gauge.prepare(now)
+        due = sorted((g for g in self.gauges if g.wake <= now + SOON * self.lead), key=lambda gauge: gauge.wake)
+        for gauge in self.gauges if everything else due:
+            gauge.prepare(now)
+        return due
 
     def look(self, now: float) -> None:
         """All gauges at a time that is past."""
