@@ -82,7 +82,7 @@ def test_a_hanging_acquisition_is_stopped_and_kept_stopped(tmp_path: Path) -> No
 
 def test_a_guardian_that_was_dismissed_stops_nothing() -> None:
     drive = OneDrive()
-    guardian = Guardian(StopOrder("tcp", "127.0.0.1", drive.port, (TELEGRAM,)))
+    guardian = Guardian(StopOrder("tcp", "127.0.0.1", drive.port, (TELEGRAM,)), limit=5.0)
     guardian.start()
     guardian.arm()
     assert guardian.check() is None

@@ -84,14 +84,14 @@ def _edit(path: Path, key: str, **attributes: object) -> None:
 
 def test_an_unknown_unit_is_an_error_that_names_it(foreign: Path) -> None:
     _edit(foreign, "entry/data/fibre_force", units="lbf")
-    with pytest.raises(InputError, match="fibre_force.*'lbf'"):
+    with pytest.raises(InputError, match=r"fibre_force.*'lbf'"):
         read_recording(foreign)
 
 
 def test_a_channel_without_units_is_refused(foreign: Path) -> None:
     with h5py.File(foreign, "r+") as file:
         del file["entry/data/weight_position"].attrs["units"]
-    with pytest.raises(InputError, match="weight_position.*no @units"):
+    with pytest.raises(InputError, match=r"weight_position.*no @units"):
         read_recording(foreign)
 
 
