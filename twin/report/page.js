@@ -48,6 +48,9 @@
   theme(stored || (dark.matches ? "dark" : "light"), false);
   dark.addEventListener("change", function (event) { if (!chosen) theme(event.matches ? "dark" : "light", false); });
   document.querySelectorAll("figure.chart").forEach(draw);
+  document.querySelectorAll("details").forEach(function (fold) {
+    fold.addEventListener("toggle", function () { if (fold.open) fold.querySelectorAll(".plot").forEach(function (p) { Plotly.Plots.resize(p); }); });
+  });
   var button = document.querySelector("button.theme");
   if (button) button.addEventListener("click", function () { chosen = root.dataset.theme === "dark" ? "light" : "dark"; theme(chosen, true); });
   var before = null;
