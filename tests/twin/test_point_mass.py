@@ -160,3 +160,25 @@ def test_the_tangent_is_the_derivative_of_the_balance() -> None:
                 if i < 15 and j < 15 and abs(i - j) <= 3:
                     entry = band[i, 3 + j - i]
                 assert entry == pytest.approx(column[i], abs=1.0)
+
+
+def test_the_work_of_drive_and_gravity_is_what_is_stored_and_lost() -> None:
+    """Taut, frictionless guide: work in = kinetic + elastic + lost in the fibre, to a share that falls with h^2."""
+    setup, off = smooth(), []
+    for k in (1, 2):
+        dt = DT / k
+        x, w = sine(0.5, 0.03, 2.0, dt)
+        out = run(NAME, setup, x, w, {"pulley_friction": 0.0, "step": dt}, dt=dt)
+        speed, pull = np.concatenate([[0.0], out[:, 1]]), np.concatenate([[setup.rest_tension], out[:, 2]])
+        drive = float(np.sum(0.5 * (pull[1:] * w[1:] + pull[:-1] * w[:-1])) * dt)
+        gravity = -setup.rest_tension * out[-1, 0]
+        kinetic = 0.5 * setup.mass * speed[-1] ** 2
+        arc = setup.pulley_radius * setup.wrap_angle
+        stiffness = setup.fibre_stiffness * setup.free_length / (setup.free_length + arc)
+        elastic = 0.5 * (out[-1, 2] ** 2 - setup.rest_tension**2) / stiffness
+        damping = setup.fibre_damping * setup.free_length / (setup.free_length + arc)
+        lost = float(np.sum(damping * (w[1:] - speed[1:]) ** 2) * dt)
+        off.append(abs(drive + gravity - kinetic - elastic - lost))
+    fibre = setup.fibre_mass * (9.81 * 0.03 + 0.5 * 0.4**2)  # J: what the fibre's own mass can hold
+    assert off[0] < fibre
+    assert off[1] < fibre
