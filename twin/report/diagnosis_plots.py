@@ -47,7 +47,8 @@ def _models(e: Evidence) -> list[tuple[str, str, Fitted]]:
 
 
 def _scaled(e: Evidence, fitted: Fitted) -> Float:
-    return fitted.residual / e.problem.sigma[:, None, :]
+    left: Float = fitted.residual / e.problem.sigma[:, None, :]
+    return left
 
 
 def _against(e: Evidence, where: Float, title: str, what: str) -> str:
@@ -57,7 +58,8 @@ def _against(e: Evidence, where: Float, title: str, what: str) -> str:
     if not finite.any() or np.ptp(where[finite]) < 1e-9:
         return ""
     of = np.broadcast_to(np.arange(len(use))[:, None], use.shape[:2])
-    edges = np.linspace(*np.percentile(where[finite], [0.5, 99.5]), BINS + 1)
+    low, high = (float(np.percentile(where[finite], share)) for share in (0.5, 99.5))
+    edges = np.linspace(low, high, BINS + 1)
     for name, role, fitted in _models(e):
         left = _scaled(e, fitted)
         for c in range(2):
@@ -136,7 +138,7 @@ def _spectrum(e: Evidence) -> str:
     w, data = e.problem.windows, []
     n = w.data.shape[1]
     window = np.hanning(n)
-    f = np.fft.rfftfreq(n, e.problem.dt)[1:]
+    f = np.fft.rfftfreq(n, e.problem.dt).astype(np.float64)[1:]
     for name, role, fitted in _models(e):
         left = _scaled(e, fitted)
         for c in range(2):

@@ -115,7 +115,8 @@ def runs(v: Json) -> str:
 def provenance(verdict: Verdict, v: Json) -> str:
     """Notes, data used, the model's file."""
     notes = findings(v.get("notes") or [])
-    rows: list[tuple[str | Cell, ...]] = [("Extended model", v.get("model") or "none: nothing to add")]
+    where = v.get("model") or ("below" if verdict.model else "none: nothing to add")
+    rows: list[tuple[str | Cell, ...]] = [("Extended model", where)]
     e = verdict.evidence
     if e is not None:
         w, noise = e.problem.windows, e.problem.sigma
