@@ -26,14 +26,16 @@ GUIDE = frozenset(System)
 class Undo:
     """How a true signal is had from a recorded one, to first order, where a window starts.
 
-    true u(t) = (recorded u(t + u_late) + u_side sign(u')) / u_gain;
-    true F(t) = (recorded F(t + F_late) - F_offset - F_rate t - F_mass x'') / F_gain.
+    true u(t) = (y(t + u_late) + u_lag y'(t + u_late) + u_side sign(u')) / u_gain, y the record;
+    true F(t) = (y(t + F_late) + F_lag y'(t + F_late) - F_offset - F_rate t - F_mass x'') / F_gain.
     """
 
     u_late: float = 0.0
+    u_lag: float = 0.0
     u_gain: float = 1.0
     u_side: float = 0.0
     F_late: float = 0.0
+    F_lag: float = 0.0
     F_gain: float = 1.0
     F_offset: float = 0.0
     F_rate: float = 0.0
@@ -80,7 +82,7 @@ class Cause:
         moves: hook on the drive's recorded position. states: how many states of its own it integrates.
     pack: (setup, values, first own state) -> the hooks' constants. undo: how its instrument is inverted at a start.
     scan: what is nonlinear is tried at these values. rivals: causes that look alike. late: order among sensor hooks.
-    which: for a cause of one among several signals or instruments, their names. rest_free: the zero of x is lost too.
+    variants: of a cause of one among several signals or instruments; each has that `choice` under `key`. rest_free: the zero of x is lost too.
     """
 
     name: str
@@ -104,6 +106,7 @@ class Cause:
     rest_free: bool = False
     key: str | None = None
     choice: str | None = None
+    variants: tuple[Cause, ...] = ()
 
     @property
     def null(self) -> dict[str, float]:

@@ -27,7 +27,7 @@ def _lag(position, force, simulated, about, p):  # type: ignore[no-untyped-def]
 
 
 def _undo(values: Values) -> Undo:
-    return Undo(u_late=values["time_constant"])
+    return Undo(u_lag=values["time_constant"])
 
 
 dial_gauge_lag = Cause(

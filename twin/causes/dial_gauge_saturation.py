@@ -16,7 +16,7 @@ def _clip(position, force, simulated, about, p):  # type: ignore[no-untyped-def]
 
 def _scan(survey: Survey) -> Sequence[Values]:
     low, high = survey.u
-    return [{"level": high - f * (high - low)} for f in (0.0005, 0.002, 0.01)]
+    return [{"level": high - d} for d in (0.0, 3.5 * survey.noise_u, 0.003 * (high - low), 0.02 * (high - low))]
 
 
 dial_gauge_saturation = Cause(

@@ -23,7 +23,7 @@ def _contact(q, p):  # type: ignore[no-untyped-def]
 def _scan(survey: Survey) -> Sequence[Values]:
     low, high = survey.u
     span = high - low
-    inside = (0.0001, 0.0003, 0.0008, 0.002, 0.005)
+    inside = (0.0001, 0.0004, 0.001, 0.0025)
     above = [{"position": high - d} for d in inside if high - d > 0.1 * span]
     return above + [{"position": low + d} for d in inside if low + d < -0.1 * span]
 

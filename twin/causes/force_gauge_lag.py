@@ -27,7 +27,7 @@ def _lag(position, force, simulated, about, p):  # type: ignore[no-untyped-def]
 
 
 def _undo(values: Values) -> Undo:
-    return Undo(F_late=values["time_constant"])
+    return Undo(F_lag=values["time_constant"])
 
 
 force_gauge_lag = Cause(

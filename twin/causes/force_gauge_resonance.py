@@ -34,11 +34,11 @@ def _ring(position, force, simulated, about, p):  # type: ignore[no-untyped-def]
 
 
 def _undo(values: Values) -> Undo:
-    return Undo(F_late=values["damping_ratio"] / (math.pi * values["frequency"]))
+    return Undo(F_lag=values["damping_ratio"] / (math.pi * values["frequency"]))
 
 
 def _scan(survey: Survey) -> Sequence[Values]:
-    return grid({}, frequency=(20.0, 35.0, 60.0, 100.0, 170.0), damping_ratio=(0.05, 0.3))
+    return grid({}, frequency=(18.0, 27.0, 40.0, 60.0, 85.0, 120.0, 165.0, 230.0), damping_ratio=(0.05, 0.2))
 
 
 force_gauge_resonance = Cause(

@@ -16,7 +16,7 @@ from twin.diagnosis.coordinates import Coordinate, base, of_cause, offsets
 from twin.kernels import composed_slots as k
 
 Float = NDArray[np.float64]
-WIDTH = 16
+WIDTH = 40
 _SYSTEM = {System.WFPD: k.WFPD, System.WF: k.WF, System.LINEAR_DRIVE: k.AXIS}
 
 
@@ -160,9 +160,11 @@ class Composition:
         parts = [c.undo(self.values(z, c)) for c in self.causes]
         return Undo(
             u_late=sum(p.u_late for p in parts) + self.base_value(z, "late_u"),
+            u_lag=sum(p.u_lag for p in parts),
             u_gain=math.prod(p.u_gain for p in parts),
             u_side=sum(p.u_side for p in parts),
             F_late=sum(p.F_late for p in parts) + self.base_value(z, "late_F"),
+            F_lag=sum(p.F_lag for p in parts),
             F_gain=math.prod(p.F_gain for p in parts),
             F_offset=sum(p.F_offset for p in parts),
             F_rate=sum(p.F_rate for p in parts),

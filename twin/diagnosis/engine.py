@@ -10,14 +10,19 @@ import numpy as np
 import twin.causes
 from stand.errors import InputError
 from stand.recording import Recording
+from stand.setup import System
 from twin.causes._kind import Cause
 from twin.diagnosis.audit import audit_all
 from twin.diagnosis.fit import Fitted, fit
+from twin.diagnosis.following import following
 from twin.diagnosis.found import Evidence, Step
+from twin.diagnosis.hum import find
 from twin.diagnosis.problem import Problem
+from twin.diagnosis.rivals import standings
 from twin.diagnosis.run import choose, prepare
 from twin.diagnosis.search import Search, backward, calibrate, error, forward
 from twin.diagnosis.tell import tell
+from twin.diagnosis.unknown import look
 from twin.diagnosis.verdict import Verdict
 from twin.plugins import every
 
@@ -50,25 +55,48 @@ def diagnose(
     """
     progress("audit", 0.0)
     good, bad, notes = audit_all(recordings, skipped)
+    good, lines = find(good)
     runs = tuple(prepare(r) for r in good)
     problem = Problem(runs, choose(runs, options.windows))
     if len(problem.windows) < 4:
         remedy = "Record motion that leaves the fibre taut now and then, for longer"
         raise InputError("no stretch of motion from which a window could be started", where=good[0].name, remedy=remedy)
-    catalogue = [c for c in every(twin.causes, Cause) if runs[0].setup.system in c.systems]
-    if options.causes:
-        catalogue = [c for c in catalogue if c.name in options.causes]
+    catalogue = known(runs[0].setup.system, options.causes)
     progress("calibrating", 0.15)
     trained = problem.part(_searched(problem, options.searched))
-    search = forward(trained, calibrate(trained), catalogue, progress)
+    able = [c for c in catalogue if c.how != "line"]
+    search = forward(trained, calibrate(trained), able, progress)
     progress("checking", 0.75)
     backward(search)
+    ranks = standings(search, able)
+    progress("looking beyond the catalogue", 0.82)
+    beyond = look(search)
+    if beyond is not None and beyond.learned:
+        search.current = beyond.fitted
+        search.ladder = [f for f in search.ladder if _part_of(f, beyond.fitted)] + [beyond.fitted]
+        ranks = [r for r in ranks if r.name in {c.name for c in beyond.fitted.model.causes}]
+    elif beyond is not None and beyond.fitted is search.base:
+        search.current, ranks, search.ladder = search.base, [], search.ladder[:1]
     progress("confirming on held-out windows", 0.85)
     found = confirm(problem, search, notes)
+    order = following(search, ranks)
     progress("writing the verdict", 0.95)
-    verdict = tell(good, bad, search, found, catalogue)
+    verdict = tell(good, bad, search, found, catalogue, ranks, lines, beyond, order)
     progress("done", 1.0)
     return verdict
+
+
+def _part_of(fitted: Fitted, whole: Fitted) -> bool:
+    names = {c.name for c in whole.model.causes}
+    return all(c.name in names for c in fitted.model.causes)
+
+
+def known(system: System, only: Sequence[str] = ()) -> list[Cause]:
+    """The catalogue for a rig, causes of one among several signals spread out."""
+    found: list[Cause] = []
+    for cause in every(twin.causes, Cause):
+        found += [c for c in cause.variants or (cause,) if system in c.systems and (not only or cause.name in only)]
+    return found
 
 
 def _searched(problem: Problem, per_run: int) -> np.ndarray:  # type: ignore[type-arg]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from stand.setup import System
 from twin.diagnosis.composition import Composition, Hooks
 from twin.diagnosis.run import BURN, HALF, LENGTH, Run, Windows
-from twin.diagnosis.smooth import gains, polynomial
+from twin.diagnosis.smooth import curvature, gains, polynomial
 from twin.kernels import composed, composed_sense
 from twin.kernels import composed_slots as k
 
@@ -153,14 +153,14 @@ class Problem:
         """Each window's start (u, v, s, w) as its instruments, inverted, tell it."""
         undo, w = model.undo(z), self.windows
         at = self.offset[w.run] + w.first
-        u, v = self._around(0, undo.u_late)
+        u, v = self._around(0, undo.u_late, undo.u_lag)
         v_true = v / undo.u_gain
         u_true = (u + undo.u_side * np.clip(v / 0.002, -1, 1)) / undo.u_gain
         centre = np.zeros((len(w), 4))
         centre[:, 0], centre[:, 1] = u_true, v_true
         if self.system is not System.WFPD:
             return centre
-        F, Fd = self._around(1, undo.F_late)
+        F, Fd = self._around(1, undo.F_late, undo.F_lag)
         acceleration = (drive[at + 1, 1] - drive[at - 1, 1]) / (2 * self.dt)
         time = w.first * self.dt
         F = (F - undo.F_offset - undo.F_rate * time - undo.F_mass * acceleration) / undo.F_gain
@@ -173,15 +173,16 @@ class Problem:
             centre[:, 2] += np.clip((first[:, 0, 2] - F) / c[:, k.K_C2], -2e-4, 2e-4)
         return centre
 
-    def _around(self, channel: int, late: float) -> tuple[Float, Float]:
-        """A channel's smooth value and rate at the starts, `late` s further on, from a local cubic there."""
+    def _around(self, channel: int, late: float, lag: float) -> tuple[Float, Float]:
+        """A channel's smooth value and rate at the starts, `late` s further on and a lag undone, from a local cubic."""
         key = ("poly", channel)
         places = np.round(late / self.dt)
         if (key, places) not in self._cache:
             self._cache[key, places] = self._fit(channel, int(places))
         value, rate, second = self._cache[key, places]
         rest = late - places * self.dt
-        return value + rest * rate + 0.5 * rest**2 * second, rate + rest * second
+        value, rate = value + rest * rate + 0.5 * rest**2 * second, rate + rest * second
+        return value + lag * rate, rate + lag * second
 
     def _fit(self, channel: int, shift: int) -> tuple[Float, Float, Float]:
         w = self.windows
@@ -189,9 +190,9 @@ class Problem:
         for r, run in enumerate(self.runs):
             mine = w.run == r
             raw = run.raw_u if channel == 0 else run.raw_F
-            places = np.clip(w.first[mine] + shift, HALF, len(raw) - HALF - 1)
+            places = np.clip(w.first[mine] + shift, 2 * HALF, len(raw) - 2 * HALF - 1)
             value[mine], rate[mine], _ = polynomial(raw, places, HALF, 3, self.dt)
-            second[mine] = (run.u if channel == 0 else run.F).second[places]
+            second[mine] = curvature(raw, places, 2 * HALF, self.dt)
         return value, rate, second
 
     def _carry(

@@ -135,7 +135,7 @@ def _smooth_starts(run: Run) -> Index:
     if len(places) <= 0:
         return np.zeros(0, np.int64)
     _, _, left_u = polynomial(run.raw_u, places, 16, 4, run.dt)
-    good = left_u < 1.6 * run.noise_u
+    good = (left_u < 1.6 * run.noise_u) & (run.u.value[places] < _ceiling(run))
     if run.setup.system is System.WFPD:
         value, _, left = polynomial(run.raw_F, places, 16, 4, run.dt)
         low = np.min(np.lib.stride_tricks.sliding_window_view(run.F.value, 33)[places - 16], axis=1)
@@ -143,6 +143,13 @@ def _smooth_starts(run: Run) -> Index:
         taut = np.minimum(4.0, 0.3 * abs(run.rest_force))
         good &= (left < limit) & (low > taut)
     return places[good]
+
+
+def _ceiling(run: Run) -> float:
+    """Where u stands at its highest for long, no window starts: a stop or a gauge at its limit hides the state there."""
+    top = float(np.quantile(run.raw_u, 0.9995))
+    standing = float(np.mean(run.raw_u > top - 8 * run.noise_u))
+    return top - 12 * run.noise_u if standing > 0.005 else np.inf
 
 
 def _spread(run: Run, starts: Index, count: int) -> Index:

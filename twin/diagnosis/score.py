@@ -59,6 +59,10 @@ def score(problem: Problem, fitted: Fitted, causes: Iterable[Cause], *, share: f
     simulated, _ = problem.simulate(fitted.model, fitted.z, fitted.starts)
     here = problem.sense(fitted.model, fitted.z, simulated)
     inverse = np.linalg.pinv(reduced.matrix, rcond=1e-12)
+    low = np.array([c.low for c in fitted.model.coordinates])
+    high = np.array([c.high for c in fitted.model.coordinates])
+    calm = bounded(reduced.matrix, reduced.vector, fitted.z, low, high)
+    already = float(2 * reduced.vector @ calm - calm @ reduced.matrix @ calm)
     reach = survey(problem)
     enough = max(25.0, VISIBLE * float(np.sum(problem.windows.use)) / 2)
     powers: list[tuple[float, float]] = []
@@ -71,7 +75,8 @@ def score(problem: Problem, fitted: Fitted, causes: Iterable[Cause], *, share: f
         else:
             there = problem.predict(model, z, fitted.starts)
         d = np.nan_to_num(np.clip(there - here, -1.0, 1e4) * root).reshape(len(there), -1)
-        gain, amplitude, power = _gain(d, linear.columns, own, linear.residual, reduced, inverse)
+        box = (fitted.z, low, high, _most(cause, values), already)
+        gain, amplitude, power = _gain(d, linear.columns, own, linear.residual, reduced, inverse, box)
         size = values[cause.parameters[0].name] - cause.parameters[0].value
         powers.append((power / max(size * size, 1e-300), abs(size)))
         return gain, amplitude, values
@@ -79,26 +84,44 @@ def score(problem: Problem, fitted: Fitted, causes: Iterable[Cause], *, share: f
     found = []
     for cause in causes:
         if cause.base is not None:
-            found.append(_freed(cause, fitted, reduced))
+            found.append(_freed(cause, fitted, reduced, low, high, already))
             continue
         powers: list[tuple[float, float]] = []
-        trials = [_within(cause, one(cause, v)) for v in cause.trials(reach)]
+        trials = [one(cause, v) for v in cause.trials(reach)]
         found.append(Scored(cause, tuple(sorted(trials, key=lambda t: -t[0])), _smallest(cause, powers, enough)))
     return sorted(found, key=lambda s: -s.gain)
 
 
-def _gain(d, J, own, r, reduced, inverse):  # type: ignore[no-untyped-def]
-    """Gain, amplitude and power along d with starts and globals refitted linearly."""
+def _gain(d, J, own, r, reduced, inverse, box):  # type: ignore[no-untyped-def]
+    """Gain and amplitude along d, starts and globals refitted linearly within their bounds; its power besides."""
     cross = np.einsum("wsl,wl->ws", own, d)
     with_starts = np.linalg.solve(reduced.starts_matrix, np.stack([cross, reduced.starts_vector], axis=-1))
     dd = float(np.sum(d * d) - np.sum(cross * with_starts[..., 0]))
     dr = float(np.sum(d * r) - np.sum(cross * with_starts[..., 1]))
     Jd = np.einsum("pwl,wl->p", J, d) - np.einsum("wps,ws->p", reduced.cross, with_starts[..., 0])
-    dd -= float(Jd @ inverse @ Jd)
-    dr -= float(Jd @ inverse @ reduced.vector)
-    if dd <= 1e-9:
+    power = dd - float(Jd @ inverse @ Jd)
+    if power <= 1e-9:
         return 0.0, 0.0, 0.0
-    return dr * dr / dd, dr / dd, dd
+    z, low, high, most, already = box
+    H = np.block([[reduced.matrix, Jd[:, None]], [Jd[None, :], np.array([[dd]])]])
+    g = np.append(reduced.vector, dr)
+    step = bounded(H, g, np.append(z, 0.0), np.append(low, most[0]), np.append(high, most[1]))
+    return max(float(2 * g @ step - step @ H @ step) - already, 0.0), float(step[-1]), power
+
+
+def bounded(H: Float, g: Float, z: Float, low: Float, high: Float) -> Float:
+    """The step that minimises step H step / 2 - g step with z + step within its bounds (active set, a few rounds)."""
+    step, held = np.zeros(len(z)), np.zeros(len(z), bool)
+    for _ in range(8):
+        open_ = ~held
+        right = g[open_] - H[np.ix_(open_, held)] @ step[held]
+        step[open_] = np.linalg.lstsq(H[np.ix_(open_, open_)], right, rcond=1e-13)[0]
+        beyond = open_ & ((z + step < low - 1e-12) | (z + step > high + 1e-12))
+        if not beyond.any():
+            break
+        step[beyond] = np.clip(z + step, low, high)[beyond] - z[beyond]
+        held |= beyond
+    return np.clip(z + step, low, high) - z
 
 
 def _smallest(cause: Cause, powers: list[tuple[float, float]], enough: float) -> float | None:
@@ -109,41 +132,30 @@ def _smallest(cause: Cause, powers: list[tuple[float, float]], enough: float) ->
     return float(np.sqrt(enough / best)) if grows and best > 0 else None
 
 
-def _within(cause: Cause, trial: tuple[float, float, Mapping[str, float]]) -> tuple[float, float, Mapping[str, float]]:
-    """The amplitude kept on the side, and for what is not linear in it near the size, that was tried."""
-    gain, amplitude, values = trial
+def _most(cause: Cause, values: Mapping[str, float]) -> tuple[float, float]:
+    """How far an amplitude may go, in trials: on the side and near the size that was tried."""
     first = cause.parameters[0]
-    low, high = first.bounds
     size = values[first.name] - first.value
-    tried = first.value + amplitude * size
-    most = 4.0 if cause.scan is None or len(values) > 1 else 1.5
-    kept = float(np.clip(amplitude, -most if low <= first.value - abs(size) else 0.0, most))
-    if not low <= tried <= high and not low <= first.value + kept * size <= high:
-        kept = 0.0
-    share = kept / amplitude if amplitude else 0.0
-    return gain * max(0.0, share * (2.0 - share)), kept, values
+    far = 4.0 if cause.scan is None or len(values) > 1 else 1.5
+    return (-far if first.bounds[0] <= first.value - abs(size) and first.bounds[1] > first.value else 0.0), far
 
 
-def _freed(cause: Cause, fitted: Fitted, reduced) -> Scored:  # type: ignore[no-untyped-def]
-    """A base value without its prior: the gain of letting it go where the data pull it."""
+def _freed(cause: Cause, fitted: Fitted, reduced, low, high, already) -> Scored:  # type: ignore[no-untyped-def]
+    """A base value without its prior and bounds: the gain of letting it go where the data pull it."""
     i = fitted.model.index.get(("base", str(cause.base)))
-    if i is None:
+    if i is None or np.isinf(fitted.model.coordinates[i].prior):
         return Scored(cause, ())
     c = fitted.model.coordinates[i]
     matrix, vector = reduced.matrix.copy(), reduced.vector.copy()
     matrix[i, i] -= 1.0 / c.prior**2
     vector[i] += fitted.z[i] / c.prior**2
-    old = np.linalg.pinv(reduced.matrix, rcond=1e-12)
-    inside = np.ones(len(vector), bool)
-    for j, other in enumerate(fitted.model.coordinates):
-        inside[j] = j == i or other.low + 1e-6 < fitted.z[j] < other.high - 1e-6
-    free = np.ix_(inside, inside)
-    step = np.zeros(len(vector))
-    step[inside] = np.linalg.lstsq(matrix[free], vector[inside], rcond=1e-12)[0]
-    gain = float(vector @ step) - float(reduced.vector @ old @ reduced.vector) * 0.0
+    low, high = low.copy(), high.copy()
+    low[i], high[i] = -60.0, 60.0
+    step = bounded(matrix, vector, fitted.z, low, high)
+    gain = float(2 * vector @ step - step @ matrix @ step) - already
     value = c.value(float(fitted.z[i] + step[i]))
     error = float(np.sqrt(np.linalg.pinv(matrix)[i, i]))
-    smallest = 3.0 * c.scale * float(np.hypot(1.0 if np.isinf(c.prior) else c.prior, error))
+    smallest = 3.0 * c.scale * float(np.hypot(c.prior, error))
     return Scored(cause, ((max(gain, 0.0), 1.0, {"difference": value}),), smallest)
 
 

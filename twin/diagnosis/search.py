@@ -10,16 +10,22 @@ from numpy.typing import NDArray
 
 from twin.causes._kind import Cause
 from twin.diagnosis.composition import Composition
+from twin.diagnosis.direct import screen
 from twin.diagnosis.fit import Fitted, fit, loss, scale
 from twin.diagnosis.problem import Problem
-from twin.diagnosis.score import Scored, score
+from twin.diagnosis.precision import covariance
+from twin.diagnosis.score import Scored, score, survey
 
 Float = NDArray[np.float64]
 SHORT_LIST = 7
 FINALISTS = 3
 MOST = 4
 NEEDED = 0.012
+NEEDED_MORE = 0.02
 NOISE = 1.12
+LARGE = 25.0
+#: first parameters that say where an effect begins, not how large it is
+REACHED = frozenset({"level", "position", "friction"})
 
 
 @dataclass
@@ -66,7 +72,12 @@ def begin(fitted: Fitted, scored: Scored, which: int = 0) -> tuple[Composition, 
     _, amplitude, values = scored.trials[which]
     first = cause.parameters[0]
     start = dict(values)
-    if cause.base is None and first.name in start:
+    if (
+        cause.base is None
+        and first.name in start
+        and first.name not in REACHED
+        and cause.name != "force-gauge-resonance"
+    ):
         share = amplitude if abs(amplitude) > 0.02 else 0.02
         start[first.name] = first.value + share * (start[first.name] - first.value)
     z = model.put(fitted.model.carry(fitted.z, model), cause, start)
@@ -76,16 +87,15 @@ def begin(fitted: Fitted, scored: Scored, which: int = 0) -> tuple[Composition, 
 
 
 def try_causes(
-    problem: Problem, fitted: Fitted, scored: Sequence[Scored], quick: int = 3, long: int = 12
+    problem: Problem, fitted: Fitted, scored: Sequence[Scored], direct: Sequence[Scored], quick: int = 3, long: int = 12
 ) -> list[Fitted]:
     """Refits of the most promising causes, best first; those far behind are only begun."""
     begun: list[Fitted] = []
     settled: set[str] | None = None
-    for s in scored[:SHORT_LIST]:
-        if settled is not None and s.cause.name not in settled and s.gain < 0.5 * scored[0].gain:
+    for s, plain in _interleaved(scored, direct):
+        if settled is not None and s.cause.name not in settled and (plain or s.gain < 0.5 * scored[0].gain):
             continue
-        model, z = begin(fitted, s)
-        begun.append(fit(problem, model, z, fitted.starts, iterations=quick))
+        begun.append(_begin_fit(problem, fitted, s, plain, quick))
         if settled is None and error(problem, begun[-1].residual).max() < NOISE:
             settled = set(s.cause.rivals)
     begun = ranked(problem, begun)
@@ -96,6 +106,25 @@ def try_causes(
         done = ranked(problem, [*done, fit(problem, f.model, f.z, f.starts, iterations=long)])
     names = {_last(f) for f in done}
     return done + [f for f in begun if _last(f) not in names]
+
+
+def _interleaved(scored: Sequence[Scored], direct: Sequence[Scored]) -> list[tuple[Scored, bool]]:
+    """First-order and direct leaders in turn, each cause once for each way."""
+    order: list[tuple[Scored, bool]] = []
+    for place in range(SHORT_LIST):
+        order += [(s[place], plain) for s, plain in ((direct, True), (scored, False)) if place < len(s)]
+    return order[:10] if direct else order
+
+
+def _begin_fit(problem: Problem, fitted: Fitted, scored: Scored, plain: bool, quick: int) -> Fitted:
+    model, z = begin(fitted, scored)
+    if not plain:
+        return fit(problem, model, z, fitted.starts, iterations=quick)
+    if not fitted.model.causes:
+        stated = np.array([c.owner in ("base", "run") for c in model.coordinates])
+        z = np.where(stated, 0.0, z)
+    settled = fit(problem, model, z, iterations=1, fixed=np.ones(len(z), bool))
+    return fit(problem, model, z, settled.starts, iterations=quick + 1)
 
 
 def _last(fitted: Fitted) -> str:
@@ -113,14 +142,14 @@ def ranked(problem: Problem, fits: Sequence[Fitted]) -> list[Fitted]:
     if not fits:
         return []
     spread = np.min([scale(problem, f.residual) for f in fits], axis=0)
-    return sorted(fits, key=lambda f: loss(f.residual, spread) + _price(f))
+    return sorted(fits, key=lambda f: loss(f.residual, spread) + prior_price(f))
 
 
-def _price(fitted: Fitted) -> float:
+def prior_price(fitted: Fitted) -> float:
     """What priors and the number of parameters cost."""
     priors = np.array([c.prior for c in fitted.model.coordinates])
     free = sum(len(c.parameters) for c in fitted.model.causes)
-    return float(np.sum((fitted.z / priors) ** 2)) + 8.0 * free
+    return float(np.sum((fitted.z / priors) ** 2)) + 20.0 * free
 
 
 def forward(problem: Problem, base: Fitted, causes: Sequence[Cause], progress: Callable[[str, float], None]) -> Search:
@@ -133,13 +162,56 @@ def forward(problem: Problem, base: Fitted, causes: Sequence[Cause], progress: C
         if not turn:
             search.scores = scored
         search.last_scores = scored
-        tried = try_causes(problem, search.current, [s for s in scored if s.gain > 15.0])
+        direct = _direct(problem, search.current, [c for c in causes if c.name not in taken])
+        tried = try_causes(problem, search.current, [s for s in scored if s.gain > 15.0], direct)
         search.refits += tried
-        if not tried or gained(problem, search.current, tried[0]) < NEEDED:
+        tried = [f for f in tried if sound(problem, search.current, f)]
+        if not tried:
             break
         search.current = tried[0]
         search.ladder.append(tried[0])
     return search
+
+
+def _direct(problem: Problem, fitted: Fitted, causes: Sequence[Cause]) -> list[Scored]:
+    """The direct screen on a third of the windows, where something large is wrong."""
+    if error(problem, fitted.residual).max() < LARGE:
+        return []
+    few = problem.part(np.arange(0, len(problem.windows), 3))
+    z = fitted.z if fitted.model.causes else fitted.model.zero()
+    return screen(few, fitted.model, z, causes)[:SHORT_LIST]
+
+
+def sound(problem: Problem, before: Fitted, after: Fitted) -> bool:
+    """Whether the last cause of a fit is needed, its size more than 3 sigma from null, and itself within reason."""
+    first = not before.model.causes
+    excess = float(error(problem, before.residual).max()) - 1.0
+    if gained(problem, before, after) < (NEEDED if first else max(NEEDED_MORE, 0.2 * excess / (1.0 + excess))):
+        return False
+    cause = after.model.causes[-1]
+    i = (
+        after.model.index[("base", cause.base)]
+        if cause.base
+        else after.model.index[(cause.name, cause.parameters[0].name)]
+    )
+    spread, _ = covariance(problem, after)
+    size, sigma = abs(after.z[i]), float(np.sqrt(max(spread[i, i], 0.0)))
+    if cause.base:
+        return bool(size > 3.0 * np.hypot(1.0, sigma))
+    reached = cause.parameters[0].name in REACHED or cause.name == "force-gauge-resonance"
+    return bool(reached or size > 3.0 * sigma) and _within_reason(problem, after, cause)
+
+
+def _within_reason(problem: Problem, fitted: Fitted, cause: Cause) -> bool:
+    """A patch is narrower than the travel."""
+    values = fitted.model.values(fitted.z, cause)
+    if cause.name != "guide-rough-patch":
+        return True
+    low, high = survey(problem).u
+    return (
+        values["width"] < 0.6 * (high - low)
+        and low - 0.5 * values["width"] < values["centre"] < high + 0.5 * values["width"]
+    )
 
 
 def backward(search: Search) -> None:
@@ -149,7 +221,7 @@ def backward(search: Search) -> None:
         thinner = [without(problem, search.current, c) for c in search.current.model.causes]
         best = ranked(problem, thinner)[0]
         search.refits.append(best)
-        if gained(problem, best, search.current) >= NEEDED:
+        if gained(problem, best, search.current) >= NEEDED_MORE:
             break
         search.current = best
 

@@ -78,6 +78,14 @@ def polynomial(
     return coefficients[:, 0], coefficients[:, 1] / (half * dt), spread
 
 
+def curvature(values: Float, places: NDArray[np.int64], half: int, dt: float) -> Float:
+    """Second derivative [k] at `places` by local cubics."""
+    basis = np.vander(np.arange(-half, half + 1) / half, 4, increasing=True)
+    samples = values[places[:, None] + np.arange(-half, half + 1)]
+    second: Float = 2.0 * samples @ np.linalg.pinv(basis)[2] / (half * dt) ** 2
+    return second
+
+
 def gains(half: int, degree: int, dt: float) -> tuple[float, float]:
     """How much of a sample's noise a local polynomial's value and rate (1/s) have."""
     basis = np.vander(np.arange(-half, half + 1) / half, degree + 1, increasing=True)

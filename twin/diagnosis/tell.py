@@ -13,11 +13,16 @@ from stand.setup import SCALARS, System
 from stand.units import conversion
 from twin.causes._kind import Cause
 from twin.diagnosis.fit import Fitted
+from twin.diagnosis.findings import findings
 from twin.diagnosis.found import Evidence
+from twin.diagnosis.hum import Hum
+from twin.diagnosis.latent import PLACES
 from twin.diagnosis.precision import covariance
 from twin.diagnosis.problem import Problem
+from twin.diagnosis.rivals import Standing
 from twin.diagnosis.score import Scored
 from twin.diagnosis.search import Search, error
+from twin.diagnosis.unknown import Unknown
 from twin.diagnosis.verdict import Verdict
 from twin.extended import to_toml
 
@@ -30,24 +35,29 @@ def tell(
     search: Search,
     found: Evidence,
     catalogue: Sequence[Cause],
+    ranks: Sequence[Standing],
+    lines: Sequence[Hum],
+    beyond: Unknown | None,
+    order: Json | None,
 ) -> Verdict:
     """The verdict from what the search found and the confirmation measured."""
     spread, _ = covariance(found.problem, found.final)
-    causes = [_cause(found, search, c, spread) for c in found.final.model.causes]
+    causes = [_cause(found, search, c, spread, r) for c, r in zip(_named(found.final), ranks, strict=True)]
+    causes += [_hum(line) for line in lines]
     data: Json = {
         "baseline": {"runs": [_baseline(r) for r in recordings], "skipped": skipped},
         "calibration": _calibration(found.final, spread),
-        "findings": [f for c in causes for f in c["evidence"][:1]],
+        "findings": findings(found, causes, beyond),
         "causes": sorted(causes, key=lambda c: -c["probability"]),
-        "unknown": None,
+        "unknown": None if beyond is None else _unknown(beyond),
         "not_found": _not_found(search, catalogue, {c["name"] for c in causes}),
         "gain": _gain(found),
         "model": None,
-        "next_experiment": None,
+        "next_experiment": order,
         "ladder": [{"name": s.name, "error": s.error, "held_out": s.held_out} for s in found.ladder],
         "notes": list(found.notes),
     }
-    return Verdict(data, to_toml(found.final) if causes else "", found)
+    return Verdict(data, to_toml(found.final) if found.final.model.causes else "", found)
 
 
 def _baseline(recording: Recording) -> Json | None:
@@ -80,7 +90,37 @@ def _calibration(fitted: Fitted, spread: Any) -> Json:
     return told
 
 
-def _cause(found: Evidence, search: Search, cause: Cause, spread: Any) -> Json:
+def _named(fitted: Fitted) -> list[Cause]:
+    return [c for c in fitted.model.causes if c.name != "unknown"]
+
+
+def _unknown(beyond: Unknown) -> Json:
+    term = beyond.term
+    y, std = term.y, term.std
+    for cause in beyond.fitted.model.causes:
+        if cause.name == "unknown":
+            y = np.array(list(beyond.fitted.model.values(beyond.fitted.z, cause).values()))
+    return {
+        "depends_on": list(beyond.depends_on), "acts_on": term.place, "units": PLACES[term.place][3], "probability": 0.9,
+        "shape": {"x": term.x, "y": y, "std": std}, "gain": beyond.gain, "against_motion": term.signed,
+        "frequency": term.frequency,
+    }  # fmt: skip
+
+
+def _hum(line: Hum) -> Json:
+    unit = "N" if line.signal == "fibre_force" else "m"
+    sizes = {
+        "amplitude": {"value": line.amplitude, "std": line.amplitude_std, "units": unit},
+        "frequency": {"value": line.frequency, "std": line.frequency_std, "units": "Hz"},
+    }
+    told = f"{line.signal} sings at {line.frequency:.2f} Hz with {line.amplitude:.3g} {unit} while the stand rests"
+    return {
+        "name": "mains-hum", "probability": 0.97, "acts_on": "wiring", "signal": line.signal, "parameters": sizes,
+        "indistinguishable_from": [], "strength": line.strength, "evidence": [told],
+    }  # fmt: skip
+
+
+def _cause(found: Evidence, search: Search, cause: Cause, spread: Any, rank: Standing) -> Json:
     fitted = found.final
     values = fitted.model.values(fitted.z, cause)
     parameters: Json = {}
@@ -90,12 +130,14 @@ def _cause(found: Evidence, search: Search, cause: Cause, spread: Any) -> Json:
         factor = conversion(p.unit, p.unit)
         parameters[p.name] = {"value": values[p.name] / factor, "std": std / factor, "units": p.unit}
     strength = _strength(search, cause)
+    chosen = {cause.key: cause.choice} if cause.key and cause.choice else {}
     return {
-        "name": cause.name,
-        "probability": 0.97,
+        "name": cause.name.split("/")[0],
+        **chosen,
+        "probability": rank.probability,
         "acts_on": cause.acts_on,
         "parameters": parameters,
-        "indistinguishable_from": [],
+        "indistinguishable_from": sorted({n.split("/")[0] for n in rank.alike} - {cause.name.split("/")[0]}),
         "strength": strength,
         "evidence": [_sentence(cause, parameters, strength)],
     }
@@ -116,16 +158,20 @@ def _sentence(cause: Cause, parameters: Json, strength: float) -> str:
 
 def _not_found(search: Search, catalogue: Sequence[Cause], named: set[str]) -> list[Json]:
     scored: dict[str, Scored] = {s.cause.name: s for s in search.last_scores}
-    told = []
+    told: list[Json] = []
+    listed: set[str] = set()
     for cause in catalogue:
-        if cause.name in named:
+        if cause.name.split("/")[0] in named | listed:
             continue
+        listed.add(cause.name.split("/")[0])
         smallest = scored[cause.name].smallest if cause.name in scored else None
         first = cause.parameters[0]
         factor = conversion(first.unit, first.unit)
         size = None if smallest is None or not math.isfinite(smallest) else smallest / factor
         why = "below what these runs can show" if size is not None else "no run reaches it"
-        told.append({"name": cause.name, "smallest_visible": {first.name: size}, "units": first.unit, "why": why})
+        told.append(
+            {"name": cause.name.split("/")[0], "smallest_visible": {first.name: size}, "units": first.unit, "why": why}
+        )
     return told
 
 

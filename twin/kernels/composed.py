@@ -307,3 +307,28 @@ def history(path, drive, c, own, dt, before, bp, after, ap, out):  # type: ignor
                     if half:
                         state[m] += 0.5 * h * (slope[m] + q[k.RATE + m])
                     slope[m] = q[k.RATE + m]
+
+
+@njit(f"int64({_V},{_V},{_M},float64,float64,{_HOOKS},{_A},{_M})", cache=True, nogil=True)
+def carry(y, c, drive, start, dt, before, bp, after, ap, mode, out):  # type: ignore[no-untyped-def]
+    """Carry y, mode [2] (in place) over len(drive) - 1 samples from time `start`; out [n, 5] at samples 1..n."""
+    q = np.zeros(k.SIZE)
+    work = np.zeros((6, 4 + k.STATES))
+    end = np.empty(4 + k.STATES)
+    row = np.empty(4)
+    n = len(drive) - 1
+    rates(y, q, c, start, drive[0, 0], drive[0, 1], before, bp, after, ap, mode[0], mode[1])
+    for i in range(n):
+        row[0] = drive[i, 0]
+        row[1] = drive[i, 1]
+        row[2] = drive[i + 1, 0]
+        row[3] = drive[i + 1, 1]
+        status = advance(y, q, c, row, start + i * dt, dt, before, bp, after, ap, work, end, mode)
+        if status != 0:
+            return status
+        out[i, 0] = y[0]
+        out[i, 1] = y[1]
+        out[i, 2] = q[k.T2]
+        out[i, 3] = (drive[i + 1, 1] - drive[i, 1]) / dt
+        out[i, 4] = y[2]
+    return 0

@@ -1,0 +1,118 @@
+"""Lines of the mains: found where the stand is at rest, and taken out of the signal before anything else."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stand.recording import Recording
+from twin.diagnosis.smooth import noise
+
+Float = NDArray[np.float64]
+LOWEST, HIGHEST = 35.0, 420.0
+SURE = 45.0
+REST = 0.9
+
+
+@dataclass(frozen=True)
+class Hum:
+    """A line in one signal: frequency Hz, amplitude and its one sigma in the signal's SI unit, amplitude over noise."""
+
+    signal: str
+    frequency: float
+    frequency_std: float
+    amplitude: float
+    amplitude_std: float
+    strength: float
+
+
+def find(recordings: Sequence[Recording]) -> tuple[list[Recording], list[Hum]]:
+    """The recordings without their lines, and the lines: each stands at rest in one signal of every run."""
+    found = []
+    for signal in ("fibre_force", "weight_position", "drive_position"):
+        if all(signal in r.channels for r in recordings):
+            line = _line(recordings, signal)
+            if line is not None:
+                found.append(line)
+    alone = [h for h in found if not any(_answers(h, other) for other in found)]
+    cleaned = list(recordings)
+    for line in alone:
+        cleaned = [_without(r, line) for r in cleaned]
+    return cleaned, alone
+
+
+def _answers(line: Hum, other: Hum) -> bool:
+    """Two signals that sing alike: the stand itself vibrates, which is no wiring's fault."""
+    return other is not line and abs(other.frequency - line.frequency) < 0.3
+
+
+def _rest(recording: Recording) -> NDArray[np.bool_]:
+    """The rest at both ends."""
+    n, count = len(recording.time), round(REST / recording.dt)
+    mask = np.zeros(n, bool)
+    mask[:count] = True
+    quiet = recording.channels["drive_position"] if "drive_position" in recording.channels else recording.time * 0
+    tail = quiet[-count // 2 :]
+    if np.ptp(tail) < 1e-3:
+        mask[-count // 2 :] = True
+    return mask
+
+
+def _line(recordings: Sequence[Recording], signal: str) -> Hum | None:
+    grid = np.arange(LOWEST, HIGHEST, 0.5)
+    power, sigma = np.zeros(len(grid)), [noise(r.channels[signal]) for r in recordings]
+    for recording, s in zip(recordings, sigma, strict=True):
+        power += _power(recording, signal, grid) / max(s, 1e-12) ** 2 / len(recordings)
+    if power.max() < SURE / len(recordings) + 8.0 or np.sum(power > 0.3 * power.max()) > 9:
+        return None
+    centre = float(grid[int(np.argmax(power))])
+    fine = np.arange(centre - 0.8, centre + 0.8, 0.01)
+    total = np.sum([_power(r, signal, fine) / s**2 for r, s in zip(recordings, sigma, strict=True)], axis=0)
+    frequency = float(fine[int(np.argmax(total))])
+    amplitudes = [float(np.hypot(*_amplitude(r, signal, frequency))) for r in recordings]
+    amplitude, count = float(np.median(amplitudes)), float(np.mean([_rest(r).sum() for r in recordings]))
+    s = float(np.median(sigma))
+    std = s * np.sqrt(2.0 / count / len(recordings))
+    if amplitude < 0.12 * s or min(amplitudes) < 0.4 * amplitude:
+        return None
+    spread = 0.35 * s / max(amplitude, 1e-12) / np.sqrt(count * len(recordings))
+    return Hum(signal, frequency, float(spread), amplitude, float(std), amplitude / s / np.sqrt(2.0))
+
+
+def _power(recording: Recording, signal: str, frequencies: Float) -> Float:
+    """|sum of signal e^-iwt|^2 / n over the rest, each end without its trend."""
+    mask = _rest(recording)
+    time, values = recording.time[mask], _level(recording.channels[signal], mask)
+    phase = np.exp(-2j * np.pi * np.outer(frequencies, time))
+    return np.abs(phase @ values) ** 2 / len(values)
+
+
+def _level(values: Float, mask: NDArray[np.bool_]) -> Float:
+    """The rest's samples, each stretch without its own straight line."""
+    parts = np.split(np.flatnonzero(mask), np.flatnonzero(np.diff(np.flatnonzero(mask)) > 1) + 1)
+    out = []
+    for part in parts:
+        at = np.linspace(-1, 1, len(part))
+        out.append(values[part] - np.polyval(np.polyfit(at, values[part], 1), at))
+    return np.concatenate(out)
+
+
+def _amplitude(recording: Recording, signal: str, frequency: float) -> tuple[float, float]:
+    mask = _rest(recording)
+    omega, time = 2 * np.pi * frequency, recording.time[mask]
+    basis = np.column_stack([np.cos(omega * time), np.sin(omega * time)])
+    a, b = np.linalg.lstsq(basis, _level(recording.channels[signal], mask), rcond=None)[0]
+    return float(a), float(b)
+
+
+def _without(recording: Recording, line: Hum) -> Recording:
+    a, b = _amplitude(recording, line.signal, line.frequency)
+    omega, time = 2 * np.pi * line.frequency, recording.time
+    clean: Mapping[str, Float] = {
+        **recording.channels,
+        line.signal: recording.channels[line.signal] - a * np.cos(omega * time) - b * np.sin(omega * time),
+    }
+    return replace(recording, channels=clean)

@@ -1,0 +1,85 @@
+"""Rivals by refit: which other causes explain the windows as well, and how probable each is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from twin.causes._kind import Cause
+from twin.diagnosis.composition import Composition
+from twin.diagnosis.fit import Fitted, fit, loss, scale
+from twin.diagnosis.score import score
+from twin.diagnosis.search import Search, begin, error, prior_price, without
+
+TEMPER = 8.0
+ALIKE = 40.0
+MOST = 4
+
+
+@dataclass(frozen=True)
+class Standing:
+    """A cause among its rivals: loss beyond the best's by name, probability, and who can't be told from it."""
+
+    name: str
+    behind: Mapping[str, float]
+    probability: float
+    alike: tuple[str, ...]
+    fits: Mapping[str, Fitted]
+
+
+def standings(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
+    """Each found cause against its rivals, refitted in its place."""
+    return [_standing(search, cause, catalogue) for cause in search.current.model.causes]
+
+
+def _standing(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> Standing:
+    problem, final = search.problem, search.current
+    spread = scale(problem, final.residual)
+    here = loss(final.residual, spread) + prior_price(final)
+    fits: dict[str, Fitted] = {}
+    for rival in _candidates(search, cause, catalogue):
+        fits[rival.name] = _instead(search, cause, rival)
+    behind = {n: loss(f.residual, spread) + prior_price(f) - here for n, f in fits.items()}
+    weights = {n: float(np.exp(-max(d, 0.0) / (2 * TEMPER))) for n, d in behind.items()}
+    alike = tuple(sorted((n for n, d in behind.items() if d < ALIKE), key=lambda n: behind[n]))
+    remaining = float(error(problem, final.residual).max())
+    trust = 0.98 if remaining < 1.15 else 0.9 if remaining < 2.0 else 0.6
+    return Standing(cause.name, behind, trust / (1.0 + sum(weights.values())), alike, fits)
+
+
+def _candidates(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> list[Cause]:
+    """Declared rivals, and those whose refit in the same place came near."""
+    named = {c.name for c in search.current.model.causes}
+    final = float(error(search.problem, search.current.residual).max())
+    near: dict[str, float] = {}
+    for f in search.refits:
+        causes = [c.name for c in f.model.causes]
+        if causes and causes[-1] not in named:
+            left = float(error(search.problem, f.residual).max())
+            if left < 4.0 * final + 2.0:
+                near[causes[-1]] = min(left, near.get(causes[-1], np.inf))
+    order = sorted(near, key=lambda n: near[n])
+    begun = {f.model.causes[-1].name for f in search.refits if f.model.causes}
+    order += [r for r in cause.rivals if r not in near and (r not in begun or cause.base is not None)]
+    known = {c.name: c for c in catalogue}
+    return [known[n] for n in order if n in known and n not in named][:MOST]
+
+
+def _instead(search: Search, cause: Cause, rival: Cause) -> Fitted:
+    """The final model with the rival in the cause's place, from where the rival's own refit stands or its best trial."""
+    problem, final = search.problem, search.current
+    want = {c.name for c in final.model.causes} - {cause.name} | {rival.name}
+    for f in search.refits:
+        if {c.name for c in f.model.causes} == want:
+            return fit(problem, f.model, f.z, f.starts, iterations=6)
+    less = without(problem, final, cause, iterations=3)
+    scored = score(problem, less, [rival])[0]
+    if not scored.trials:
+        return less
+    model, z = begin(less, scored)
+    return fit(problem, model, z, less.starts, iterations=10)
+
+
+__all__ = ["Composition", "Standing", "standings"]
