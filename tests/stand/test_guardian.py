@@ -93,7 +93,7 @@ def test_a_guardian_that_was_dismissed_stops_nothing() -> None:
 
 def test_the_acquisition_notices_that_its_guardian_is_gone() -> None:
     drive = OneDrive()
-    guardian = Guardian(StopOrder("tcp", "127.0.0.1", drive.port, (TELEGRAM,)))
+    guardian = Guardian(StopOrder("tcp", "127.0.0.1", drive.port, (TELEGRAM,)), limit=5.0)
     guardian.start()
     os.kill(guardian.pid, signal.SIGKILL)
     deadline = time.monotonic() + 3
