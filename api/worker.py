@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 from pathlib import Path
 from typing import Any
 
 from api.cli._errors import exit_code, tell
-
-NICENESS = 10
+from api.priority import stand_back
 
 
 def main(arguments: list[str]) -> int:
     """Do one job; the last line on stdout holds its result, an error goes to stderr in one line."""
-    os.nice(NICENESS)
+    stand_back()
     kind, files = arguments[0], [Path(name) for name in arguments[1:]]
     try:
         result = _work(kind, files)

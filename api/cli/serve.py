@@ -29,6 +29,9 @@ def command(
     from api.access import Access, read_token
     from api.app import create_app
     from api.operator import Operator
+    from api.priority import prefer
+
+    prefer()
 
     with (
         configured(stand, simulated=simulated, arguments=serve_arguments(hide, seed)) as (rig, mock),
@@ -43,7 +46,11 @@ def command(
         operator = Operator(rig, folder, title=title, mount=mock.mount if mock else None, diagnose=diagnose)
         _announce(number, access, shown=token_file is None)
         config = uvicorn.Config(
-            create_app(operator, access), log_level="warning", ws="websockets-sansio", timeout_graceful_shutdown=2
+            create_app(operator, access),
+            log_level="warning",
+            ws="websockets-sansio",
+            ws_per_message_deflate=False,  # on loopback it would only cost time
+            timeout_graceful_shutdown=2,
         )
         uvicorn.Server(config).run(sockets=[bound])
 

@@ -9,7 +9,7 @@ from fastapi import Depends, Request
 from api.operator import Operator
 
 
-def _operator(request: Request) -> Operator:
+async def _operator(request: Request) -> Operator:
     operator: Operator = request.app.state.operator
     return operator
 

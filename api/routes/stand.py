@@ -21,7 +21,7 @@ class Jog(BaseModel):
 
 
 @router.get("", response_model=StandView)
-def status(operator: TheOperator) -> Any:
+async def status(operator: TheOperator) -> Any:
     """What the devices say, as last asked; asked again every few seconds while no experiment runs."""
     return operator.status()
 
