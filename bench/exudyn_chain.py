@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twin.kernels import fibre_layout as rig
-from twin.kernels.fibre_chain import COUNT, POINT_MASS, SEGMENT, STIFFNESS
+from twin.kernels.fibre_chain_layout import COUNT, POINT_MASS, SEGMENT, STIFFNESS
 
 Float = NDArray[np.float64]
 HEAVY = 1e9  # kg

@@ -44,15 +44,15 @@ class Cable:
 
     def forces(self, q: Float) -> tuple[Float, Float, Float]:
         """Internal forces [4 (n + 1)] at rest, their derivative and the mass matrix."""
-        from twin.kernels import fibre_ancf
+        from twin.kernels import fibre_ancf_element
 
         size, g, none = len(q), 1e3, np.zeros(8)
         f, k, m = np.zeros(size), np.zeros((size, size)), np.zeros((size, size))
         lin, one, two, work = np.empty((12, 4)), np.empty(8), np.empty((8, 8)), np.empty((5, 8))
-        fibre_ancf.linear(self.c, self.length, g, True, lin)
+        fibre_ancf_element.linear(self.c, self.length, g, True, lin)
         for e in range(self.n):
             part = slice(4 * e, 4 * e + 8)
-            fibre_ancf.element(self.c, self.length, g, True, q[part].copy(), none, none, lin, one, two, work)
+            fibre_ancf_element.element(self.c, self.length, g, True, q[part].copy(), none, none, lin, one, two, work)
             f[part] += one
             mass = np.kron(lin[:4], np.eye(2))
             k[part, part] += (two - mass / g) / g

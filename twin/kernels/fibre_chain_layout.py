@@ -1,0 +1,8 @@
+"""What the point-mass kernel's constants hold behind the rig's."""
+
+from twin.kernels.fibre_layout import RIG
+
+COUNT, POINT_MASS, SEGMENT, STIFFNESS, ROUND, RIM_STIFFNESS, BOND, ONSET, CAPSTAN, STEP, RIM_LOSS = range(RIG, RIG + 11)
+OWN = 11
+BAND = 3
+HYSTERESIS = 5e-5  # m, of the handover between segments
