@@ -61,11 +61,11 @@ def _start(c: Float, start: Start) -> Float:
 
 
 def _advance(c: Float, state: Float, drive: Float, dt: float, out: Float) -> int:
-    from twin.kernels import fibre_chain, fibre_step
+    from twin.kernels import fibre_chain, fibre_chain_layout, fibre_step
 
     count = int(c[RIG])
     steps = max(1, math.ceil(dt / c[RIG + 9] - 1e-6))
-    size = np.array([2 * count + 2, fibre_chain.BAND, 2, steps], dtype=np.int64)
+    size = np.array([2 * count + 2, fibre_chain_layout.BAND, 2, steps], dtype=np.int64)
     return int(
         fibre_step.advance(
             fibre_chain.assemble, fibre_chain.gauge, size, np.ones(2 * count + 2), c, state, drive, dt, out
