@@ -9,6 +9,7 @@ import pytest
 import twin.rigs
 from stand.errors import InputError
 from stand.setup import check
+from tests.twin.fibre_runs import held, run
 from twin.plugins import every, load
 from twin.rigs import Rig, friction_factor, release, rest_tension, strand
 
@@ -58,3 +59,11 @@ def test_a_release_needs_the_weight_fibre_rig_and_a_height_it_has() -> None:
         release(rig("weight-fibre-45").setup(), 0.5)
     with pytest.raises(InputError, match="only the weight-fibre rig"):
         release(rig("symmetric").setup(), 0.02)
+
+
+@pytest.mark.parametrize("name", ["point-mass", "ritz"])
+def test_on_the_asymmetric_rig_the_fibre_carries_the_weight_over_its_cosine(name: str) -> None:
+    setup = rig("asymmetric").setup().with_values(guide_friction=0.0)
+    out = run(name, setup, *held(1.0))
+    assert out[-1, 2] == pytest.approx(rest_tension(setup), abs=setup.fibre_mass * setup.gravity)
+    assert abs(out[-1, 0]) < 1e-5
