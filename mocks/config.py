@@ -69,7 +69,7 @@ class GaugeConfig:
     bunching: float = _number(0.0, 0.0, 1.0)
     bunching_error: float = _number(0.003, 0.0, 0.1)
     jitter: tuple[float, float] = _pair(0.0, 0.0)
-    batch: int = _number(4, 1, 200)
+    batch: int = _number(8, 1, 200)
     drift_ppm: float | None = _number(None, -1000, 1000)
     phase: float | None = _number(None, 0.0, 1.0)
 

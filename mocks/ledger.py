@@ -9,6 +9,8 @@ the device shows at the plant's zero.
 from __future__ import annotations
 
 import json
+import threading
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO, TextIO
@@ -53,6 +55,11 @@ class Rows:
             counter, tick, true_time, value, true_value, np.full(n, np.nan), zeros, np.full(n, np.nan), zeros + 0
         )
 
+    @classmethod
+    def joined(cls, parts: Sequence[Rows]) -> Rows:
+        """All one after another."""
+        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__dataclass_fields__))
+
     def __len__(self) -> int:
         return len(self.counter)
 
@@ -76,6 +83,8 @@ class Ledger:
         folder.mkdir(parents=True, exist_ok=True)
         self.folder = folder
         self._files: dict[str, BinaryIO] = {}
+        self._waiting: dict[str, list[Rows]] = {}
+        self._lock = threading.Lock()
         self._events: TextIO = (folder / "events.jsonl").open("w")
         self.describe(facts)
 
@@ -85,10 +94,9 @@ class Ledger:
         (self.folder / "ledger.json").write_text(json.dumps(header, indent=1) + "\n")
 
     def rows(self, device: str, rows: Rows) -> None:
-        """Samples of a device."""
-        if device not in self._files:
-            self._files[device] = (self.folder / f"{device}.bin").open("wb", buffering=1 << 20)
-        self._files[device].write(rows.records().tobytes())
+        """Samples of a device; in the file with the next `flush`. Nobody changes the rows any more."""
+        with self._lock:
+            self._waiting.setdefault(device, []).append(rows)
 
     def event(self, time: float, kind: str, **facts: Any) -> None:
         """Something that happened."""
@@ -97,11 +105,17 @@ class Ledger:
     def flush(self) -> None:
         """All that is written so far, to the system."""
         self._events.flush()
-        for file in self._files.values():
-            file.flush()
+        with self._lock:
+            waiting, self._waiting = self._waiting, {}
+        for device, rows in waiting.items():
+            if device not in self._files:
+                self._files[device] = (self.folder / f"{device}.bin").open("wb", buffering=1 << 20)
+            self._files[device].write(Rows.joined(rows).records().tobytes())
+            self._files[device].flush()
 
     def close(self) -> None:
         """The end."""
+        self.flush()
         self._events.close()
         for file in self._files.values():
             file.close()

@@ -1,4 +1,4 @@
-"""One thread that keeps the stand in real time: it sleeps until the next byte is due, never longer than 2 ms."""
+"""One thread that keeps the stand in real time: it sleeps until the next byte is due, never longer than 6 ms."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from mocks.devices.gauge import Gauge
 from mocks.devices.world import World
 
-LONGEST = 2e-3
+LONGEST = 6e-3
 LEAD = 0.35e-3  # s before bytes are due, at most, in which they are made
 SOON = 1.05  # leads before bytes are due in which they may be made
 BEHIND = 0.25

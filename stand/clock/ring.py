@@ -20,12 +20,16 @@ Float = NDArray[np.float64]
 #: share of the quickest polls that the likelihood uses, and the least scale of its error, s
 QUICK = 0.6
 FLOOR = 2e-6
+#: periods without a new sample after which the ring is taken to stand
+STILL = 2.5
 
 
 def fit_ring(
     heads: NDArray[np.int64], request: Float, response: Float, period: float, latency: float, latency_sigma: float
 ) -> Clock:
     """The clock from polls: heads [k] samples written, request and response times s [k]."""
+    alive = moving(heads, request, period)
+    heads, request, response = heads[alive], request[alive], response[alive]
     h = heads.astype(np.float64)
     start = line_between(h, request, h - 1, response, period)
     line, fit_sigma = refine(start, h, request, response)
@@ -33,6 +37,13 @@ def fit_ring(
     sigma = float(np.hypot(fit_sigma, latency_sigma))
     drift = period / line.slope - 1
     return Clock(line.intercept - latency, line.slope, drift, residual, fit_sigma, sigma, latency, "ring")
+
+
+def moving(heads: NDArray[np.int64], request: Float, period: float) -> NDArray[np.bool_]:
+    """Which polls met a ring that was being written; one that stands (not yet or no longer fed) has no clock."""
+    stands = (np.diff(heads) == 0) & (np.diff(request) > STILL * period)
+    alive = ~(np.append(stands, False) | np.append(False, stands))
+    return alive if np.count_nonzero(alive) >= 10 else np.ones(len(heads), dtype=np.bool_)
 
 
 def refine(start: Line, h: Float, request: Float, response: Float) -> tuple[Line, float]:

@@ -8,7 +8,7 @@ from pathlib import Path
 import h5py
 
 from stand.config import Stand, load_stand_text
-from stand.errors import InputError
+from stand.errors import DeviceError, InputError
 from stand.recorder import FilePlan, Recorder
 from stand.recorder.finish import finish_file
 from stand.recorder.inject import injected
@@ -19,6 +19,7 @@ from stand.runs.run import Span
 from stand.runs.streams import stream_specs
 
 SILENCE = 0.5
+BEGINNING = 10.0
 
 
 def perform_replay(rig: Rig, order: RunOrder, path: Path) -> Finished:
@@ -51,12 +52,22 @@ def _plan(rig: Rig, order: RunOrder, identities: dict[str, dict[str, str]]) -> F
 
 def _listen(rig: Rig, order: RunOrder, span: Span) -> None:
     rig.read_unwatched()
+    _await_gauges(rig)
     span.origin = span.end = time.monotonic()
     rig.acquisition.align_from(span.origin)
     rig.publish(Phase("motion", span.origin, "replay"))
     while not rig.halt.wait(0.02) and not _over(rig, order, span):
         span.end = time.monotonic()
     rig.publish(Progress(span.end - span.origin, order.seconds, 0, 0))
+
+
+def _await_gauges(rig: Rig) -> None:
+    """A replay begins once all listen: the grid must not, before there is something on it."""
+    gauges = [meter for name, meter in rig.acquisition.meters.items() if name != "drive"]
+    end = time.monotonic() + BEGINNING
+    while not all(meter.samples for meter in gauges) and not rig.halt.wait(0.002):
+        if time.monotonic() > end:
+            raise DeviceError("sends nothing", where="replay", remedy="Is the recording being played?")
 
 
 def _over(rig: Rig, order: RunOrder, span: Span) -> bool:

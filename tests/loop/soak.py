@@ -116,7 +116,7 @@ def _await_answer(server: Server, timeout: float = 30.0) -> None:
 def busy_core() -> Iterator[None]:
     """Another process that never rests."""
     process = subprocess.Popen(
-        [sys.executable, "-c", "import os; os.setpriority(os.PRIO_PROCESS, 0, 0)\nwhile 1: pass"]
+        [sys.executable, "-c", "import os; os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))\nwhile 1: pass"]
     )
     try:
         yield
@@ -203,6 +203,9 @@ def _judge(view: dict[str, Any], server: Server, lost: dict[str, tuple[int, int]
     print(
         f"live: median {late[0]:.0f} ms, 99 % {late[1]:.0f} ms, worst {late[2]:.0f} ms; {server.dropped} blocks dropped"
     )
+    if view["latency"]:
+        told = {name: f"{value * 1e3:.0f} ms" for name, value in view["latency"].items() if name != "blocks"}
+        print(f"as the server saw it, oldest sample to published: {told}")
     begun = np.array(server.arrivals) - server.arrivals[0]
     behind = begun[np.array(server.latencies) > LATENCY_LIMIT]
     if len(behind):
