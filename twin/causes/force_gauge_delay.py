@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from twin.causes._delay import delay_line
-from twin.causes._kind import Cause, Undo, Values, sensor
+from twin.causes._kind import GUIDE, Cause, Undo, Values, drive_input, sensor
 from twin.parameter import Parameter, Source
 
 
 @sensor
 def _late(position, force, simulated, about, p):  # type: ignore[no-untyped-def]
     delay_line(force, int(about[0]), p[1] / about[1], 0.0)
+
+
+@drive_input
+def _sooner(x, speed, about, p):  # type: ignore[no-untyped-def]
+    delay_line(x, int(about[0]), -p[1] / about[1], 0.0)
+    delay_line(speed, int(about[0]), -p[1] / about[1], 0.0)
 
 
 def _undo(values: Values) -> Undo:
@@ -26,5 +32,7 @@ force_gauge_delay = Cause(
     senses=_late,
     order=4,
     undo=_undo,
+    moves=_sooner,
+    systems=GUIDE,
     rivals=("force-gauge-lag", "drive-delay", "clock-drift"),
 )

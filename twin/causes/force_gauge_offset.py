@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from twin.causes._kind import Cause, Undo, Values, sensor
+from twin.causes._kind import GUIDE, Cause, Undo, Values, drive_input, sensor
 from twin.parameter import Parameter, Source
 
 
@@ -10,6 +10,12 @@ from twin.parameter import Parameter, Source
 def _add(position, force, simulated, about, p):  # type: ignore[no-untyped-def]
     for i in range(int(about[0])):
         force[i] += p[1]
+
+
+@drive_input
+def _take(x, speed, about, p):  # type: ignore[no-untyped-def]
+    for i in range(int(about[0])):
+        x[i] -= p[1]
 
 
 def _undo(values: Values) -> Undo:
@@ -26,5 +32,7 @@ force_gauge_offset = Cause(
     senses=_add,
     order=6,
     undo=_undo,
+    moves=_take,
+    systems=GUIDE,
     rivals=("weight-mass", "incline-angle", "guide-friction-asymmetry"),
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from twin.causes._kind import Cause
+from twin.causes._kind import GUIDE, Cause
 from twin.parameter import Parameter, Source
 
 
@@ -14,5 +14,6 @@ guide_coulomb_friction = Cause(
     source=Source("assumed"),
     how="base",
     base="guide_friction",
+    systems=GUIDE,
     rivals=("guide-stribeck-friction", "pulley-bearing-friction"),
 )

@@ -113,6 +113,7 @@ class Composition:
         row[k.K_OWN] = self.own_states
         if s.system is System.LINEAR_DRIVE:
             row[[k.K_MASS, k.K_VS, k.K_C1, k.K_C2]] = s.moving_mass, 0.002, 1.0, 1.0
+            row[k.K_FC] = max(self.base_value(z, "guide_friction"), 0.0)
             return row
         free = s.free_length
         share = [free / s.weight_strand_length, free / s.drive_strand_length if s.drive_strand_length else 1.0]
@@ -133,7 +134,10 @@ class Composition:
 
     def hooks(self, z: Float, kind: str) -> Hooks:
         """The causes' hooks of a kind (before, after, senses, moves) with their constants."""
-        chosen = sorted((c for c in self.causes if getattr(c, kind) is not None), key=lambda c: c.order)
+        axis = self.setups[0].system is System.LINEAR_DRIVE  # there the gauge's force is what drives
+        skip = {"senses": axis, "moves": not axis}.get(kind, False)
+        able = [c for c in self.causes if getattr(c, kind) is not None and not (skip and c.acts_on == "force-gauge")]
+        chosen = sorted(able, key=lambda c: c.order)
         p = np.zeros((max(len(chosen), 1), WIDTH))
         own = self._own()
         for row, cause in zip(p, chosen, strict=False):

@@ -17,6 +17,7 @@ WITHIN = 3.0
 TIMING = 4e-5
 OFFSET = 4e-6
 LOST_OFFSET = 6e-4
+NO_FRICTION = 1e-3
 
 
 @dataclass(frozen=True)
@@ -50,10 +51,12 @@ def base(setups: Sequence[Setup], freed: frozenset[str] = frozenset()) -> tuple[
             "guide_friction",
         ),
         System.WF: ("weight_mass", "incline_angle", "fibre_stiffness", "fibre_damping", "guide_friction"),
-        System.LINEAR_DRIVE: ("moving_mass",),
+        System.LINEAR_DRIVE: ("moving_mass", "guide_friction"),
     }[setup.system]
     found = [Coordinate(n, "base", _sigma(setup, n), 0.0, 1.0, -WITHIN, WITHIN) for n in names]
-    if setup.system is not System.LINEAR_DRIVE:
+    if setup.system is System.LINEAR_DRIVE:  # the baseline there has no friction: any is a cause
+        found[1] = Coordinate("guide_friction", "base", 1.0, 0.0, NO_FRICTION, 0.0, WITHIN * NO_FRICTION)
+    else:
         found.append(Coordinate("guide_friction_velocity", "base", 0.7, 0.0, 1.0, -3.6, 2.2))
         found.append(Coordinate("late_F", "base", TIMING, 0.0, 1.0, -WITHIN, WITHIN))
     if setup.system is System.WFPD:

@@ -75,7 +75,7 @@ def diagnose(
         search.current = beyond.fitted
         search.ladder = [f for f in search.ladder if _part_of(f, beyond.fitted)] + [beyond.fitted]
         ranks = [r for r in ranks if r.name in {c.name for c in beyond.fitted.model.causes}]
-    elif beyond is not None and beyond.fitted is search.base:
+    elif beyond is not None and beyond.fitted is search.base:  # the catalogue's causes only stood in for it
         search.current, ranks, search.ladder = search.base, [], search.ladder[:1]
     progress("confirming on held-out windows", 0.85)
     found = confirm(problem, search, notes)

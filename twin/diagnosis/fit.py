@@ -55,7 +55,9 @@ def residual(problem: Problem, model: Composition, z: Float, starts: Float) -> F
 def scale(problem: Problem, left: Float) -> Float:
     """One sigma of each sample's channel, [w, 1, 2]: the sensor's and a floor of what the model can't do yet."""
     use = problem.windows.use
-    floor = [FLOOR * float(np.median(np.abs(left[..., c][use[..., c]]))) for c in range(2)]
+    floor = [
+        FLOOR * float(np.median(np.abs(left[..., c][use[..., c]]))) if use[..., c].any() else 0.0 for c in range(2)
+    ]
     spread: Float = np.sqrt(problem.sigma**2 + np.square(floor))[:, None, :]
     return spread
 

@@ -60,9 +60,8 @@ def _candidates(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> lis
             left = float(error(search.problem, f.residual).max())
             if left < 4.0 * final + 2.0:
                 near[causes[-1]] = min(left, near.get(causes[-1], np.inf))
-    order = sorted(near, key=lambda n: near[n])
-    begun = {f.model.causes[-1].name for f in search.refits if f.model.causes}
-    order += [r for r in cause.rivals if r not in near and (r not in begun or cause.base is not None)]
+    declared = [r for r in cause.rivals if r in near or final < 1.5]
+    order = list(dict.fromkeys([*sorted(near, key=lambda n: near[n])[:2], *declared]))
     known = {c.name: c for c in catalogue}
     return [known[n] for n in order if n in known and n not in named][:MOST]
 

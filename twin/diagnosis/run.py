@@ -124,6 +124,8 @@ def choose(runs: tuple[Run, ...], per_run: int) -> Windows:
         data[k, :, 0], data[k, :, 1] = runs[r].raw_u[f + step], runs[r].raw_F[f + step]
         use[k] = ~runs[r].bad[f + step]
     use[:, :BURN] = False
+    if runs[0].setup.system is System.LINEAR_DRIVE:
+        use[..., 1] = False  # the force drives there, it isn't predicted
     held = np.concatenate([(np.arange(len(f)) // 2) % 2 == 1 for f in firsts]) if len(firsts) else np.zeros(0, bool)
     return Windows(run_of.astype(np.int64), first, data, use, held)
 

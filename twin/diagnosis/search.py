@@ -8,8 +8,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from stand.setup import System
 from twin.causes._kind import Cause
 from twin.diagnosis.composition import Composition
+from twin.diagnosis.coordinates import NO_FRICTION
 from twin.diagnosis.direct import screen
 from twin.diagnosis.fit import Fitted, fit, loss, scale
 from twin.diagnosis.problem import Problem
@@ -197,7 +199,8 @@ def sound(problem: Problem, before: Fitted, after: Fitted) -> bool:
     spread, _ = covariance(problem, after)
     size, sigma = abs(after.z[i]), float(np.sqrt(max(spread[i, i], 0.0)))
     if cause.base:
-        return bool(size > 3.0 * np.hypot(1.0, sigma))
+        axis = problem.system is System.LINEAR_DRIVE and cause.base == "guide_friction"
+        return bool(size > 3.0 * np.hypot(NO_FRICTION if axis else 1.0, sigma))
     reached = cause.parameters[0].name in REACHED or cause.name == "force-gauge-resonance"
     return bool(reached or size > 3.0 * sigma) and _within_reason(problem, after, cause)
 

@@ -195,6 +195,8 @@ def _held_out(problem: Problem, fitted: Fitted) -> list[Json]:
         entry: Json = {"file": run.name}
         for channel, name in enumerate(("weight_position", "fibre_force")):
             use = problem.windows.use[mine][..., channel]
+            if not use.any():
+                continue
             data = problem.data[mine][..., channel][use]
             left = fitted.residual[mine][..., channel][use]
             entry[name] = {

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from twin.diagnosis.composition import Composition
-from twin.diagnosis.fit import Fitted, fit, scale
+from twin.diagnosis.fit import Fitted, fit, scale, weigh
 from twin.diagnosis.latent import Term, as_cause, terms
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.search import Search, error, without
@@ -48,17 +48,17 @@ def _beginnings(search: Search) -> list[Fitted]:
 def _best(problem: Problem, fitted: Fitted) -> Unknown | None:
     found = terms(problem, fitted)
     spread = scale(problem, fitted.residual)
-    weighted = float(np.sum((fitted.residual / spread) ** 2))
-    if not found or found[0].gain < 0.04 * weighted:
+    weighted = float(np.sum((fitted.residual / spread) ** 2 * weigh(fitted.residual, spread)))
+    if not found or found[0].gain < SHARE * weighted:
         return None
-    best = _refitted(problem, fitted, found[:3])
-    if best is None:
-        return None
-    term, refit, learned = best
+    term = found[0]
     alike = [t.variable for t in found if t.gain > ALIKE * term.gain]
-    names = tuple(dict.fromkeys([term.variable, *_aliases(term.variable), *alike]))
-    before, after = error(problem, fitted.residual).max(), error(problem, refit.residual).max()
-    return Unknown(term, names[:3], refit, float(1.0 - after / before) if learned else term.gain / weighted, learned)
+    names = tuple(dict.fromkeys([term.variable, *_aliases(term.variable), *alike]))[:3]
+    before = float(error(problem, fitted.residual).max())
+    refit = _refitted(problem, fitted, term)
+    if refit is not None and (after := float(error(problem, refit.residual).max())) < 0.8 * before:
+        return Unknown(term, names, refit, 1.0 - after / before, True)
+    return Unknown(term, names, fitted, term.gain / weighted, False)
 
 
 def _aliases(variable: str) -> list[str]:
@@ -69,38 +69,34 @@ def _aliases(variable: str) -> list[str]:
     }.get(variable, [])  # fmt: skip
 
 
-def _refitted(problem: Problem, fitted: Fitted, found: list[Term]) -> tuple[Term, Fitted, bool] | None:
-    """The first terms put in as tables and refitted; the one that leaves least."""
-    done: list[tuple[float, Term, Fitted, bool]] = []
-    for term in found:
-        cause = as_cause(term)
-        if cause is None:
-            done.append((float(error(problem, fitted.residual).max()) - 1e-9, term, fitted, False))
-            continue
-        model = Composition(fitted.model.setups, (*fitted.model.causes, cause))
-        z = fitted.model.carry(fitted.z, model)
-        z = model.put(z, cause, {f"y{i}": float(y) for i, y in enumerate(term.y)})
-        refit = fit(problem, model, z, fitted.starts, iterations=4)
-        done.append((float(error(problem, refit.residual).max()), term, refit, True))
-    if found[0].frequency is not None:
-        return found[0], fitted, False
-    best = min(done, key=lambda d: d[0])
-    return best[1], best[2], best[3]
+def _refitted(problem: Problem, fitted: Fitted, term: Term) -> Fitted | None:
+    """The term put in as a table and refitted with all else."""
+    cause = as_cause(term)
+    if cause is None:
+        return None
+    model = Composition(fitted.model.setups, (*fitted.model.causes, cause))
+    z = fitted.model.carry(fitted.z, model)
+    z = model.put(z, cause, {f"y{i}": float(y) for i, y in enumerate(term.y)})
+    return fit(problem, model, z, fitted.starts, iterations=7)
+
+
+def _left(problem: Problem, unknown: Unknown) -> float:
+    """The squared error with the term: as refitted, or to first order."""
+    left = float(error(problem, unknown.fitted.residual).max())
+    return left if unknown.learned else left * (1.0 - unknown.gain)
 
 
 def _choose(search: Search, candidates: list[Unknown]) -> Unknown | None:
     """The base with a term where that does as well as the catalogue's causes; else a term beside them, if worth it."""
     problem = search.problem
     catalogue = float(error(problem, search.current.residual).max())
-    first = candidates[0]
-    alone = not first.fitted.model.causes or first.fitted.model.causes[0].name == "unknown"
-    if alone and first.learned and float(error(problem, first.fitted.residual).max()) < 1.02 * catalogue:
-        return first
-    if alone and not first.learned and (first.gain > 0.3 or not search.current.model.causes):
-        return first
-    last = candidates[-1]
-    after = float(error(problem, last.fitted.residual).max()) if last.learned else catalogue * (1 - last.gain)
-    return last if 1.0 - after / catalogue > SHARE else None
+    alone = [c for c in candidates if not {k.name for k in c.fitted.model.causes} - {"unknown"}]
+    beside = [c for c in candidates if c not in alone]
+    if alone and (_left(problem, alone[0]) < 1.1 * catalogue or not search.current.model.causes):
+        return alone[0]
+    if beside and 1.0 - _left(problem, beside[0]) / catalogue > SHARE:
+        return beside[0]
+    return None
 
 
 __all__ = ["Unknown", "look", "without"]

@@ -136,7 +136,7 @@ def _step(y, q, c, row, start, theta, h, dt, before, bp, after, ap, taut1, taut2
 def _gaps(q, gap):  # type: ignore[no-untyped-def]
     """How far each strand is from its switch: min(d, T/c) with T as if taut, m."""
     t1 = q[k.D1] + (q[k.B1] * q[k.DD1] + q[k.E1]) / q[k.C1]
-    t2 = q[k.D2] + (q[k.B2] * q[k.DD2] + q[k.E2]) / q[k.C2]
+    t2 = q[k.D2] + ((q[k.B2] * q[k.DD2] + q[k.E2]) / q[k.C2] if q[k.C2] > 0.0 else 0.0)
     gap[0] = min(q[k.D1], t1)
     gap[1] = min(q[k.D2], t2)
 
@@ -239,9 +239,12 @@ def windows(starts, own, constants, run, first, length, drive, dt, before, bp, a
         y[4:] = own[j]
         at = offset[run[j]] + first[j]
         rates(y, q, c, first[j] * dt, drive[at, 0], drive[at, 1], before, bp, after, ap, 1, 1)
-        _gaps(q, gap)
-        mode[0] = 1 if gap[0] > 0.0 else 0
-        mode[1] = 1 if gap[1] > 0.0 else 0
+        mode[0] = 1
+        mode[1] = 1
+        if c[k.K_SYSTEM] != k.AXIS:
+            _gaps(q, gap)
+            mode[0] = 1 if gap[0] > 0.0 else 0
+            mode[1] = 1 if gap[1] > 0.0 else 0
         rates(y, q, c, first[j] * dt, drive[at, 0], drive[at, 1], before, bp, after, ap, mode[0], mode[1])
         status[j] = 0
         for i in range(length):
