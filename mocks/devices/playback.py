@@ -18,6 +18,7 @@ from mocks.wire.terminal import Terminal
 Float = NDArray[np.float64]
 
 RING_RATE = 1000.0
+PPM, SPREAD = 1e-6, 120
 SETTLE = 0.2  # s between the moment that everybody listens and the first byte
 
 
@@ -65,7 +66,7 @@ class RecordedRing:
         heads = words[:, 0].astype(np.int64)
         self.first, self.last = int(heads[0]), int(heads[-1])
         self.values = _unrolled(heads, words[:, 1:].astype(np.int32))
-        self.start, self.period = _timing(heads, (request + response) / 2.0)
+        self.start, self.period = _timing(heads, request, response)
         self.given = self.first
         self.reads = 0
 
@@ -110,11 +111,23 @@ def _unrolled(heads: NDArray[np.int64], cells: NDArray[np.int32]) -> NDArray[np.
     return values
 
 
-def _timing(heads: NDArray[np.int64], middle: Float) -> tuple[float, float]:
-    """Time of sample 0 and period, s: a read that found h samples came half a period after sample h - 1 on average."""
-    centre = float(middle.mean())
-    slope, offset = np.polyfit(heads - 0.5, middle - centre, 1)
-    return float(offset) + centre, float(slope) if slope > 0 else 1.0 / RING_RATE
+def _timing(heads: NDArray[np.int64], request: Float, response: Float) -> tuple[float, float]:
+    """Time of sample 0 and period, s: the line that keeps farthest from what the reads exclude.
+
+    A read that found h samples was asked before sample h was taken and answered after sample h - 1 was, however
+    late its answer came; of the periods near the reads' own trend, that one counts which leaves the most room.
+    """
+    centre, first = float(request.mean()), float(heads.mean())
+    h, asked, answered = heads - first, request - centre, response - centre
+    trend = float(np.polyfit(h, asked, 1)[0])
+    if trend <= 0:
+        return centre - first / RING_RATE, 1.0 / RING_RATE
+    slopes = trend * (1.0 + PPM * np.linspace(-SPREAD, SPREAD, 2 * SPREAD + 1))
+    most = np.array([np.min(answered - slope * (h - 1.0)) for slope in slopes])
+    least = np.array([np.max(asked - slope * h) for slope in slopes])
+    best = int(np.argmax(most - least))
+    slope = float(slopes[best])
+    return float(most[best] + least[best]) / 2.0 + centre - slope * first, slope
 
 
 class RecordedGauge(threading.Thread):
