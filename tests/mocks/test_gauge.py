@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from mocks.devices.clock import DeviceClock
 from mocks.devices.gauge import Gauge, Sensing
 from mocks.devices.heads import DialHead, ForceHead
+from mocks.devices.scheduler import Scheduler
 from mocks.ledger import DROPPED, OVERRUN
 from mocks.wire.line import Adapter, Line
 
@@ -182,3 +184,32 @@ def test_a_stopped_stream_stays_stopped_until_it_is_started() -> None:
     run(device, host, 0.3)
     gaps = np.diff(column(rows, "counter"))
     assert gaps.max() == pytest.approx(300, abs=20)
+
+
+class Still:
+    """Stands in for the plant."""
+
+    now = 0.0
+
+    def advance(self, now: float) -> None:
+        self.now = max(self.now, now)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.0002, 0.0003, 0.004, 0.009])
+def test_two_gauges_on_16_ms_timers_both_keep_streaming(shift: float) -> None:
+    devices, hosts, logs = [], [Host(), Host()], [list[Any](), list[Any]()]
+    for host, rows, phase in zip(hosts, logs, (0.003, 0.003 + shift), strict=True):
+        device = gauge(ForceHead(), host, rows, timer=0.016, jitter=(1e-4, 3e-4), host_time=time.monotonic)
+        begun = time.monotonic()
+        device.clock, device.adapter.phase = DeviceClock(begun, 0.0), begun + phase
+        devices.append(device)
+    scheduler = Scheduler(Still(), devices, lambda now: None)  # type: ignore[arg-type]
+    Still.now = time.monotonic()
+    scheduler.start()
+    time.sleep(0.3)
+    scheduler.end()
+    assert scheduler.error is None
+    for rows in logs:
+        after = column(rows, "handed") - column(rows, "true_time")
+        assert len(after) > 400
+        assert np.median(after) < 0.0165
