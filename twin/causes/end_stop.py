@@ -8,7 +8,6 @@ from twin.causes._kind import GUIDE, Cause, Survey, Values, dynamics
 from twin.kernels import composed_slots as k
 from twin.parameter import Parameter, Source
 
-
 STIFFNESS, DAMPING = 1e5, 300.0
 
 

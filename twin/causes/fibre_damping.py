@@ -5,7 +5,6 @@ from __future__ import annotations
 from twin.causes._kind import Cause
 from twin.parameter import Parameter, Source
 
-
 fibre_damping = Cause(
     name="fibre-damping",
     title="fibre damped more or less than stated",

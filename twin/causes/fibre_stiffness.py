@@ -5,7 +5,6 @@ from __future__ import annotations
 from twin.causes._kind import Cause
 from twin.parameter import Parameter, Source
 
-
 fibre_stiffness = Cause(
     name="fibre-stiffness",
     title="fibre stiffer or softer than stated",

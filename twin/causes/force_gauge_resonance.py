@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from twin.causes._kind import Cause, Survey, Undo, Values, grid, sensor
 from twin.parameter import Parameter, Source
 
-
 PIECES = 6
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from twin.causes._kind import GUIDE, Cause
 from twin.parameter import Parameter, Source
 
-
 guide_coulomb_friction = Cause(
     name="guide-coulomb-friction",
     title="dry friction in the guide other than stated",

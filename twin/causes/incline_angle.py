@@ -5,7 +5,6 @@ from __future__ import annotations
 from twin.causes._kind import Cause
 from twin.parameter import Parameter, Source
 
-
 incline_angle = Cause(
     name="incline-angle",
     title="incline other than stated",

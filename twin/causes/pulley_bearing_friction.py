@@ -8,7 +8,6 @@ from twin.causes._kind import WFPD, Cause, dynamics
 from twin.kernels import composed_slots as k
 from twin.parameter import Parameter, Source
 
-
 BREAKAWAY = 5e-6
 FASTEST = 2500.0
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from twin.causes._kind import WFPD, Cause
 from twin.parameter import Parameter, Source
 
-
 pulley_inertia = Cause(
     name="pulley-inertia",
     title="pulley heavier or lighter than stated",

@@ -5,7 +5,6 @@ from __future__ import annotations
 from twin.causes._kind import Cause
 from twin.parameter import Parameter, Source
 
-
 weight_mass = Cause(
     name="weight-mass",
     title="weight other than stated",

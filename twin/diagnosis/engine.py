@@ -47,7 +47,7 @@ def diagnose(
     *,
     skipped: Sequence[dict[str, str]] = (),
     progress: Progress = _silent,
-    options: Options = Options(),  # noqa: B008 - frozen
+    options: Options = Options(),
 ) -> Verdict:
     """The verdict on one recording or a campaign of one rig.
 

@@ -14,8 +14,8 @@ from twin.diagnosis.composition import Composition
 from twin.diagnosis.coordinates import NO_FRICTION
 from twin.diagnosis.direct import screen
 from twin.diagnosis.fit import Fitted, fit, loss, scale
-from twin.diagnosis.problem import Problem
 from twin.diagnosis.precision import covariance
+from twin.diagnosis.problem import Problem
 from twin.diagnosis.score import Scored, score, survey
 
 Float = NDArray[np.float64]

@@ -56,7 +56,7 @@ def _response(omega: Float, cutoff: float) -> Float:
 def _best(spectrum: Float, omega: Float, dt: float, sigma: float, n: int) -> float:
     """Stein's risk in the frequency domain: power left out, and twice the noise let through."""
     power = np.abs(spectrum) ** 2 * 2 / n
-    cutoffs = _CUTOFFS[_CUTOFFS < 0.4 / dt]
+    cutoffs = _CUTOFFS[0.4 / dt > _CUTOFFS]
     risks = []
     for cutoff in cutoffs:
         response = _response(omega, float(cutoff))

@@ -12,8 +12,8 @@ from stand.recording import Recording
 from stand.setup import SCALARS, System
 from stand.units import conversion
 from twin.causes._kind import Cause
-from twin.diagnosis.fit import Fitted
 from twin.diagnosis.findings import findings
+from twin.diagnosis.fit import Fitted
 from twin.diagnosis.found import Evidence
 from twin.diagnosis.hum import Hum
 from twin.diagnosis.latent import PLACES
