@@ -200,7 +200,7 @@ def fit(
     for turn in range(iterations):
         spread = scale(problem, fitted.residual)
         cost = loss(fitted.residual, spread) + prior_cost(model, fitted.z, fitted.starts)
-        known = linear if turn % 2 else None
+        known: Linear | None = linear if turn % 2 else None
         linear = linearise(problem, fitted, spread, free, known)
         reduced = reduce(linear, fitted.starts, fitted.z)
         better = None

@@ -87,7 +87,8 @@ def _power(recording: Recording, signal: str, frequencies: Float) -> Float:
     mask = _rest(recording)
     time, values = recording.time[mask], _level(recording.channels[signal], mask)
     phase = np.exp(-2j * np.pi * np.outer(frequencies, time))
-    return np.abs(phase @ values) ** 2 / len(values)
+    power: Float = np.abs(phase @ values) ** 2 / len(values)
+    return power
 
 
 def _level(values: Float, mask: NDArray[np.bool_]) -> Float:

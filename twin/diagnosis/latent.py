@@ -22,7 +22,7 @@ from twin.diagnosis.run import LENGTH
 from twin.kernels import composed_latent as kernels
 from twin.parameter import Parameter, Source
 
-Float = NDArray[np.float64]
+Float = NDArray[np.floating[Any]]
 SPACING = 8
 KNOTS = (8, 16, 28)
 PRICE = 14.0
@@ -142,7 +142,7 @@ def _basis(values: Float, knots: Float) -> Float:
     """Hats over the knots, [w, h, k]; zero where a value is missing."""
     step = knots[1] - knots[0]
     place = np.clip((np.nan_to_num(values) - knots[0]) / step, 0, len(knots) - 1)
-    heights = np.maximum(0.0, 1.0 - np.abs(place[..., None] - np.arange(len(knots))))
+    heights: Float = np.maximum(0.0, 1.0 - np.abs(place[..., None] - np.arange(len(knots))))
     heights[np.isnan(values)] = 0.0
     return heights
 

@@ -144,7 +144,8 @@ def _smooth_starts(run: Run) -> Index:
         limit = 1.6 * run.noise_F + 0.004 * np.abs(value)
         taut = np.minimum(4.0, 0.3 * abs(run.rest_force))
         good &= (left < limit) & (low > taut)
-    return places[good]
+    chosen: Index = places[good]
+    return chosen
 
 
 def _ceiling(run: Run) -> float:

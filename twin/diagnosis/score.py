@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from twin.diagnosis.composition import Composition
 from twin.diagnosis.fit import FLOOR, Fitted, linearise, reduce, scale, weigh
 from twin.diagnosis.problem import Problem
 
-Float = NDArray[np.float64]
+Float = NDArray[np.floating[Any]]
 VISIBLE = 0.01
 
 
@@ -64,8 +65,8 @@ def score(problem: Problem, fitted: Fitted, causes: Iterable[Cause], *, share: f
     calm = bounded(reduced.matrix, reduced.vector, fitted.z, low, high)
     already = float(2 * reduced.vector @ calm - calm @ reduced.matrix @ calm)
     reach = survey(problem)
-    enough = max(25.0, VISIBLE * float(np.sum(problem.windows.use)) / 2)
     powers: list[tuple[float, float]] = []
+    enough = max(25.0, VISIBLE * float(np.sum(problem.windows.use)) / 2)
 
     def one(cause: Cause, values: Mapping[str, float]) -> tuple[float, float, Mapping[str, float]]:
         model = Composition(fitted.model.setups, (*fitted.model.causes, cause))
@@ -86,13 +87,15 @@ def score(problem: Problem, fitted: Fitted, causes: Iterable[Cause], *, share: f
         if cause.base is not None:
             found.append(_freed(cause, fitted, reduced, low, high, already))
             continue
-        powers: list[tuple[float, float]] = []
+        powers.clear()
         trials = [one(cause, v) for v in cause.trials(reach)]
         found.append(Scored(cause, tuple(sorted(trials, key=lambda t: -t[0])), _smallest(cause, powers, enough)))
     return sorted(found, key=lambda s: -s.gain)
 
 
-def _gain(d, J, own, r, reduced, inverse, box):  # type: ignore[no-untyped-def]
+def _gain(
+    d: Float, J: Float, own: Float, r: Float, reduced: Any, inverse: Float, box: Any
+) -> tuple[float, float, float]:  # type: ignore[no-untyped-def]
     """Gain and amplitude along d, starts and globals refitted linearly within their bounds; its power besides."""
     cross = np.einsum("wsl,wl->ws", own, d)
     with_starts = np.linalg.solve(reduced.starts_matrix, np.stack([cross, reduced.starts_vector], axis=-1))

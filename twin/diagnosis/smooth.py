@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-Float = NDArray[np.float64]
+Float = NDArray[np.floating[Any]]
 _DIFFERENCE = np.array([1.0, -4.0, 6.0, -4.0, 1.0])
 _CUTOFFS = np.array([12.0, 18.0, 27.0, 40.0, 60.0, 85.0, 120.0, 170.0, 240.0, 340.0, 480.0, 650.0])
 
@@ -53,7 +54,7 @@ def _response(omega: Float, cutoff: float) -> Float:
     return response
 
 
-def _best(spectrum: Float, omega: Float, dt: float, sigma: float, n: int) -> float:
+def _best(spectrum: NDArray[np.complexfloating[Any, Any]], omega: Float, dt: float, sigma: float, n: int) -> float:
     """Stein's risk in the frequency domain: power left out, and twice the noise let through."""
     power = np.abs(spectrum) ** 2 * 2 / n
     cutoffs = _CUTOFFS[0.4 / dt > _CUTOFFS]
