@@ -174,7 +174,8 @@ def _evenly(starts: Index, count: int) -> Index:
         if s >= spaced[-1] + 60:
             spaced.append(int(s))
     pick = np.unique(np.linspace(0, len(spaced) - 1, min(count, len(spaced))).round().astype(int))
-    return np.array(spaced, dtype=np.int64)[pick]
+    picked: Index = np.array(spaced, dtype=np.int64)[pick]
+    return picked
 
 
 def start_spread(run: Run) -> tuple[float, float]:
