@@ -1,4 +1,6 @@
-"""The extended model as a file: calibrated values, causes with their parameters; loaded, a fibre model like any other."""
+"""The extended model as a file: calibrated values, causes with their parameters; loaded, a fibre model like any
+other.
+"""
 
 from __future__ import annotations
 
@@ -109,7 +111,8 @@ def _table(unknown: Mapping[str, Any]) -> Cause:
     place, y = str(unknown["place"]), [float(v) for v in unknown["y"]]
     head = (float(unknown["kind"]), float(unknown["low"]), float(unknown["step"]), float(len(y)))
     return Cause(
-        name="unknown", title="a term outside the catalogue", acts_on=place, parameters=(), source=Source("learned"), order=8,
+        name="unknown", title="a term outside the catalogue", acts_on=place, parameters=(),
+        source=Source("learned"), order=8,
         pack=lambda setup, values, own: (0.0, *head, *y), **{PLACES[place][0]: TABLES[place]},
     )  # fmt: skip
 

@@ -17,6 +17,8 @@ PROMPT, STEADY = 0.75, 0.3
 STRETCHES = (0.04, 0.08, 0.16, 0.32, 0.64)
 #: a read that is late is forgiven; so many in one run say that the host was too busy for this search
 FORGIVEN = 40
+#: so many breaks in one run, mended or forgiven, are no lost frames but a host that stood still: the search ends
+MENDS = 60
 #: reads are thinned to the promptest in this many seconds; a loss is placed with a second of reads beyond it
 THIN, HORIZON, SPAN = 0.004, 1.0, 10.0
 
@@ -45,7 +47,7 @@ def find_gaps(bounds: Bounds, reads: Reads, period: float) -> tuple[Gap, ...]:
         return ()
     search = _Search(*watched, period)
     begin = 0
-    while begin < len(search.time) and search.forgiven < FORGIVEN:
+    while begin < len(search.time) and search.forgiven < FORGIVEN and search.mends < MENDS:
         end = search.until(begin, SPAN)
         broken = search.breaks(begin, end)
         if broken is not None:
@@ -95,7 +97,7 @@ class _Search:
         self.bounds, self.frames, self.period = bounds, frames, period
         self.time = bounds.before
         self.gaps: tuple[Gap, ...] = ()
-        self.forgiven = 0
+        self.forgiven = self.mends = 0
 
     def until(self, begin: int, seconds: float) -> int:
         """The first read later than `seconds` after read `begin`."""
@@ -123,6 +125,7 @@ class _Search:
 
     def mend(self, begin: int, end: int) -> None:
         """Add the gap that explains the break, or forgive the read: the host was late there, nothing is missing."""
+        self.mends += 1
         found = self._place(begin, end)
         if found is None:
             self.forgiven += 1

@@ -11,13 +11,51 @@ from twin.diagnosis.composition import Composition
 from twin.kernels import composed
 from twin.plugins import every, load, names
 
-CATALOGUE = """fibre-stiffness fibre-damping velocity-dependent-damping velocity-dependent-stiffness fibre-hardening
-fibre-viscoelasticity fibre-hysteresis fibre-creep fibre-mass pulley-inertia pulley-bearing-friction pulley-bearing-drag
-pulley-eccentricity fibre-pulley-slip guide-coulomb-friction guide-stribeck-friction guide-friction-asymmetry
-guide-rough-patch guide-viscous-drag guide-quadratic-drag end-stop weight-mass incline-angle dial-gauge-spring
-drive-backlash drive-compliance drive-delay drive-scale dial-gauge-lag dial-gauge-delay dial-gauge-scale
-dial-gauge-saturation dial-gauge-sticking force-gauge-lag force-gauge-delay force-gauge-scale force-gauge-offset
-force-gauge-drift force-gauge-saturation force-gauge-resonance force-gauge-inertia mains-hum clock-drift""".split()
+CATALOGUE = [
+    "fibre-stiffness",
+    "fibre-damping",
+    "velocity-dependent-damping",
+    "velocity-dependent-stiffness",
+    "fibre-hardening",
+    "fibre-viscoelasticity",
+    "fibre-hysteresis",
+    "fibre-creep",
+    "fibre-mass",
+    "pulley-inertia",
+    "pulley-bearing-friction",
+    "pulley-bearing-drag",
+    "pulley-eccentricity",
+    "fibre-pulley-slip",
+    "guide-coulomb-friction",
+    "guide-stribeck-friction",
+    "guide-friction-asymmetry",
+    "guide-rough-patch",
+    "guide-viscous-drag",
+    "guide-quadratic-drag",
+    "end-stop",
+    "weight-mass",
+    "incline-angle",
+    "dial-gauge-spring",
+    "drive-backlash",
+    "drive-compliance",
+    "drive-delay",
+    "drive-scale",
+    "dial-gauge-lag",
+    "dial-gauge-delay",
+    "dial-gauge-scale",
+    "dial-gauge-saturation",
+    "dial-gauge-sticking",
+    "force-gauge-lag",
+    "force-gauge-delay",
+    "force-gauge-scale",
+    "force-gauge-offset",
+    "force-gauge-drift",
+    "force-gauge-saturation",
+    "force-gauge-resonance",
+    "force-gauge-inertia",
+    "mains-hum",
+    "clock-drift",
+]
 
 CAUSES = [variant for cause in every(twin.causes, Cause) for variant in cause.variants or (cause,)]
 

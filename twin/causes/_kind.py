@@ -82,7 +82,8 @@ class Cause:
         moves: hook on the drive's recorded position. states: how many states of its own it integrates.
     pack: (setup, values, first own state) -> the hooks' constants. undo: how its instrument is inverted at a start.
     scan: what is nonlinear is tried at these values. rivals: causes that look alike. late: order among sensor hooks.
-    variants: of a cause of one among several signals or instruments; each has that `choice` under `key`. rest_free: the zero of x is lost too.
+    variants: of a cause of one among several signals or instruments; each has that `choice` under `key`. rest_free:
+    the zero of x is lost too.
     """
 
     name: str

@@ -1,4 +1,6 @@
-"""A stop in the guide: contact of 1e5 N/m and 300 N s/m beyond its position, above where that is positive, else below."""
+"""A stop in the guide: contact of 1e5 N/m and 300 N s/m beyond its position, above where that is positive, else
+below.
+"""
 
 from __future__ import annotations
 

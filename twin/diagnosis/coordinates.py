@@ -1,6 +1,7 @@
 """What can be fitted: base values within their priors, nuisances of each run, and the parameters of causes.
 
-Every coordinate z counts in units of its scale: base values in their stated uncertainties from the setup's value, causes'
+Every coordinate z counts in units of its scale: base values in their stated uncertainties from the setup's value,
+causes'
 parameters in typical sizes from null.
 """
 
@@ -22,7 +23,9 @@ NO_FRICTION = 1e-3
 
 @dataclass(frozen=True)
 class Coordinate:
-    """One number to fit. owner: "base", "run" (a number per run) or a cause's name; scale in SI; prior: one sigma in z."""
+    """One number to fit. owner: "base", "run" (a number per run) or a cause's name; scale in SI; prior: one sigma
+    in z.
+    """
 
     name: str
     owner: str
@@ -66,7 +69,7 @@ def base(setups: Sequence[Setup], freed: frozenset[str] = frozenset()) -> tuple[
         heavy = max(setups, key=lambda s: s.added_mass)
         if heavy.sigma("added_mass") > 1e-6:
             found.append(Coordinate("added_mass", "base", heavy.sigma("added_mass"), 0.0, 1.0, -WITHIN, WITHIN))
-    free = dict(prior=math.inf, low=-math.inf, high=math.inf)
+    free = {"prior": math.inf, "low": -math.inf, "high": math.inf}
     return tuple(replace(c, **free) if c.name in freed else c for c in found)  # type: ignore[arg-type]
 
 

@@ -1,6 +1,7 @@
 """How much better each cause at each of several sizes predicts at once, without any refit.
 
-Where a cause is strong, calibration bends every base value to make up for it and first-order scores taken there mislead;
+Where a cause is strong, calibration bends every base value to make up for it and first-order scores taken there
+mislead;
 the setup as stated does not, and a delay or an end stop then shows by itself.
 """
 

@@ -1,7 +1,10 @@
-"""What is wrong, in words with numbers: where in speed, place, load and time the calibrated baseline misses, and by how much."""
+"""What is wrong, in words with numbers: where in speed, place, load and time the calibrated baseline misses, and
+by how much.
+"""
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -29,8 +32,8 @@ def findings(found: Evidence, causes: list[dict[str, Any]], beyond: Unknown | No
     before, after = found.ladder[1].held_out, found.ladder[-1].held_out
     if causes or beyond is not None:
         told.append(
-            f"on windows that were not fitted the error falls from {before[0]:.1f} (u) and {before[1]:.1f} (F) times the "
-            f"sensors' noise to {after[0]:.2f} and {after[1]:.2f}"
+            f"on windows that were not fitted the error falls from {before[0]:.1f} (u) and {before[1]:.1f} (F) times "
+            f"the sensors' noise to {after[0]:.2f} and {after[1]:.2f}"
         )
     else:
         told.append(
@@ -56,17 +59,14 @@ def _where(found: Evidence) -> list[str]:
     for name, (column, along, scale) in ALONG.items():
         values = np.abs(simulated[..., column][use]) if column == 1 else simulated[..., column][use]
         edges = np.quantile(values, [0, 0.25, 0.5, 0.75, 1])
-        parts = [
-            float(np.sqrt(np.mean(squares[(values >= a) & (values <= b)])))
-            for a, b in zip(edges[:-1], edges[1:], strict=True)
-        ]
+        parts = [float(np.sqrt(np.mean(squares[(values >= a) & (values <= b)]))) for a, b in pairwise(edges)]
         contrast = max(parts) / max(min(parts), 0.3)
         if contrast > best[1]:
             i = int(np.argmax(parts))
             best = (
                 f"the calibrated simulation misses the {channel} most at a {name} of {edges[i] * scale:.3g} to "
-                f"{edges[i + 1] * scale:.3g} {along}: by {parts[i] * noise * factor:.3g} {unit} rms over short windows, "
-                f"against {min(parts) * noise * factor:.3g} {unit} where it is best",
+                f"{edges[i + 1] * scale:.3g} {along}: by {parts[i] * noise * factor:.3g} {unit} rms over short "
+                f"windows, against {min(parts) * noise * factor:.3g} {unit} where it is best",
                 contrast,
             )
     return [best[0]] if best[0] else []

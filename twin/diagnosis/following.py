@@ -1,4 +1,6 @@
-"""The next experiment: within the stand's limits, the excitation on which the leading rivals' predictions differ most."""
+"""The next experiment: within the stand's limits, the excitation on which the leading rivals' predictions differ
+most.
+"""
 
 from __future__ import annotations
 
@@ -55,7 +57,9 @@ def _unreached(search: Search) -> dict[str, Any]:
         )
         return _told(CANDIDATES[3], why, ["velocity-dependent-damping", "velocity-dependent-stiffness"])
     if all(r.setup.added_mass == 0 for r in runs):
-        why = "no run has the added mass: load alone tells the pulley's friction from the guide's, a force gain from the weight"
+        why = (
+            "no run has the added mass: load alone tells the pulley's friction from the guide's, a gain from the weight"
+        )
         return _told(CANDIDATES[4], why, ["pulley-bearing-friction", "guide-coulomb-friction"])
     why = "a slow run tells friction's own shape and creep from what grows with speed"
     return _told(CANDIDATES[0], why, ["guide-stribeck-friction", "guide-viscous-drag"])
@@ -130,8 +134,8 @@ def _windows(
     before, after, senses = (model.hooks(fitted.z, kind) for kind in ("before", "after", "senses"))
     out, status, zero = np.empty((n, length, 5)), np.zeros(n, np.int64), np.zeros(n, np.int64)
     composed.windows(
-        np.ascontiguousarray(starts), np.zeros((n, k.STATES)), constants, zero, np.asarray(first, np.int64), length, moved, dt,
-        before.address, before.p, after.address, after.p, np.zeros(1, np.int64), out, status,
+        np.ascontiguousarray(starts), np.zeros((n, k.STATES)), constants, zero, np.asarray(first, np.int64), length,
+        moved, dt, before.address, before.p, after.address, after.p, np.zeros(1, np.int64), out, status,
     )  # fmt: skip
     told = np.empty((n, length, 2))
     composed_sense.sense(out, zero, np.asarray(first, np.int64), dt, 0.0, 0.0, senses.address, senses.p, told)

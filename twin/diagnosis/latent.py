@@ -1,7 +1,7 @@
 """What is left when the catalogue is done: where a latent term acts, on what it depends, its shape with error bars.
 
-Hats in time at one place after the other (a force on the weight, on the rim, ...) give, to first order, what any function
-of any variable at that place would explain: only the hats are simulated, functions are sums of them.
+Hats in time at one place after the other (a force on the weight, on the rim, ...) give, to first order, what any
+function of any variable at that place would explain: only the hats are simulated, functions are sums of them.
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -216,7 +217,7 @@ def _threads(n: int, work: Any) -> None:
         work(0, n)
         return
     cuts = np.linspace(0, n, 2 * WORKERS + 1).astype(int)
-    list(_POOL.map(lambda pair: work(*pair), zip(cuts[:-1], cuts[1:], strict=True)))
+    list(_POOL.map(lambda pair: work(*pair), pairwise(cuts)))
 
 
 __all__ = ["BURN", "Problem"]

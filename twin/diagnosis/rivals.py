@@ -67,7 +67,9 @@ def _candidates(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> lis
 
 
 def _instead(search: Search, cause: Cause, rival: Cause) -> Fitted:
-    """The final model with the rival in the cause's place, from where the rival's own refit stands or its best trial."""
+    """The final model with the rival in the cause's place, from where the rival's own refit stands or its best
+    trial.
+    """
     problem, final = search.problem, search.current
     want = {c.name for c in final.model.causes} - {cause.name} | {rival.name}
     for f in search.refits:

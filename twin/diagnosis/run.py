@@ -149,7 +149,9 @@ def _smooth_starts(run: Run) -> Index:
 
 
 def _ceiling(run: Run) -> float:
-    """Where u stands at its highest for long, no window starts: a stop or a gauge at its limit hides the state there."""
+    """Where u stands at its highest for long, no window starts: a stop or a gauge at its limit hides the state
+    there.
+    """
     top = float(np.quantile(run.raw_u, 0.9995))
     standing = float(np.mean(run.raw_u > top - 8 * run.noise_u))
     return top - 12 * run.noise_u if standing > 0.005 else np.inf

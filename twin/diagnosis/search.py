@@ -44,7 +44,9 @@ class Search:
 
 
 def error(problem: Problem, left: Float) -> Float:
-    """Squared short-window error in the sensors' noise, per channel [2]: the mean over windows, the wildest tenth capped."""
+    """Squared short-window error in the sensors' noise, per channel [2]: the mean over windows, the wildest tenth
+    capped.
+    """
     squares = (left / problem.sigma[:, None, :]) ** 2
     use = problem.windows.use
     each = squares.sum(axis=1) / np.maximum(use.sum(axis=1), 1)

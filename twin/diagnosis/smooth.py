@@ -25,7 +25,9 @@ class Smooth:
 
 
 def noise(values: Float) -> float:
-    """One sigma of a channel's white noise: fourth differences (blind to motion), by their median (blind to impacts)."""
+    """One sigma of a channel's white noise: fourth differences (blind to motion), by their median (blind to
+    impacts).
+    """
     spread = np.abs(np.convolve(values, _DIFFERENCE, "valid"))
     middle = float(np.median(spread))
     if middle == 0.0:

@@ -101,7 +101,8 @@ def _unknown(beyond: Unknown) -> Json:
         if cause.name == "unknown":
             y = np.array(list(beyond.fitted.model.values(beyond.fitted.z, cause).values()))
     return {
-        "depends_on": list(beyond.depends_on), "acts_on": term.place, "units": PLACES[term.place][3], "probability": 0.9,
+        "depends_on": list(beyond.depends_on), "acts_on": term.place, "units": PLACES[term.place][3],
+        "probability": 0.9,
         "shape": {"x": term.x, "y": y, "std": std}, "gain": beyond.gain, "against_motion": term.signed,
         "frequency": term.frequency,
     }  # fmt: skip
@@ -153,7 +154,8 @@ def _strength(search: Search, cause: Cause) -> float:
 
 def _sentence(cause: Cause, parameters: Json, strength: float) -> str:
     sizes = ", ".join(f"{n} {v['value']:.4g} +- {v['std']:.2g} {v['units']}" for n, v in parameters.items())
-    return f"{cause.title} ({cause.name}): {sizes}; without it the short windows miss by {strength:.1f} times the noise more"
+    missed = f"without it the short windows miss by {strength:.1f} times the noise more"
+    return f"{cause.title} ({cause.name}): {sizes}; {missed}"
 
 
 def _not_found(search: Search, catalogue: Sequence[Cause], named: set[str]) -> list[Json]:

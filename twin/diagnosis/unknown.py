@@ -64,7 +64,8 @@ def _best(problem: Problem, fitted: Fitted) -> Unknown | None:
 def _aliases(variable: str) -> list[str]:
     """What data can't tell apart, taut: the same motion on both sides of the pulley."""
     return {
-        "weight_position": ["drive_position"], "pulley_angle": ["drive_position"], "drive_position": ["weight_position"],
+        "weight_position": ["drive_position"], "pulley_angle": ["drive_position"],
+        "drive_position": ["weight_position"],
         "weight_velocity": ["drive_velocity"], "drive_velocity": ["weight_velocity"], "frequency": ["time"],
     }.get(variable, [])  # fmt: skip
 

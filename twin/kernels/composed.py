@@ -197,7 +197,9 @@ def _located(y, q, c, row, start, done, theta, dt, before, bp, after, ap, work, 
 
 @njit(f"int64({_V},{_V},{_V},{_V},float64,float64,{_HOOKS},{_M},{_V},{_A})", cache=True, nogil=True)
 def advance(y, q, c, row, start, dt, before, bp, after, ap, work, out, mode):  # type: ignore[no-untyped-def]
-    """Carry y (to which q belongs) over one sample interval; mode[0:2] are the strands' taut flags. 0, or 2 where numbers overflow."""
+    """Carry y (to which q belongs) over one sample interval; mode[0:2] are the strands' taut flags. 0, or 2 where
+    numbers overflow.
+    """
     base = max(1, int(math.ceil(dt / STEP)))
     done = 0.0
     for _ in range(4000):
@@ -223,8 +225,8 @@ def windows(starts, own, constants, run, first, length, drive, dt, before, bp, a
     """Simulate every window.
 
     starts [w, 4] u, v, s, w; own [w, 8] the causes' states; constants [runs, 14]; run, first [w] the window's run and
-    its first sample there; offset [runs] where a run begins in drive [all, 2] (x, x'); out [w, length, 5] u, v, F, x'', s;
-    status [w] 0 or 2. A window begins after and ends before the run's first and last sample.
+    its first sample there; offset [runs] where a run begins in drive [all, 2] (x, x'); out [w, length, 5] u, v, F,
+    x'', s;    status [w] 0 or 2. A window begins after and ends before the run's first and last sample.
     """
     y = np.empty(4 + k.STATES)
     end = np.empty(4 + k.STATES)
