@@ -19,6 +19,8 @@ STRETCHES = (0.04, 0.08, 0.16, 0.32, 0.64)
 FORGIVEN = 40
 #: so many breaks in one run, mended or forgiven, are no lost frames but a host that stood still: the search ends
 MENDS = 60
+#: of each such stretch, s, the promptest read tells whether the gaps found make the run straighter
+LEVEL = 0.4
 #: reads are thinned to the promptest in this many seconds; a loss is placed with a second of reads beyond it
 THIN, HORIZON, SPAN = 0.004, 1.0, 10.0
 
@@ -56,7 +58,19 @@ def find_gaps(bounds: Bounds, reads: Reads, period: float) -> tuple[Gap, ...]:
             break
         else:
             begin = search.until(begin, SPAN / 2)
+    if not bounds.two_sided and _crooked(shift(bounds, reads.frames, search.gaps), period) > _crooked(bounds, period):
+        return ()
     return search.gaps
+
+
+def _crooked(bounds: Bounds, period: float) -> float:
+    """How far the promptest reads of all stretches stray from one line, s: only true gaps make it straighter."""
+    slope = line_below(bounds.early, bounds.before, period).slope
+    first = _promptest(bounds.before - slope * bounds.early, bounds.before, LEVEL, 3)
+    if len(first) < 3:
+        return 0.0
+    line = np.polynomial.Polynomial.fit(bounds.early[first], bounds.before[first], 1)
+    return float(np.mean(np.abs(bounds.before[first] - line(bounds.early[first]))))
 
 
 def _watched(bounds: Bounds, reads: Reads, period: float) -> tuple[Bounds, Int] | None:
