@@ -58,7 +58,11 @@ def find_gaps(bounds: Bounds, reads: Reads, period: float) -> tuple[Gap, ...]:
             break
         else:
             begin = search.until(begin, SPAN / 2)
-    if not bounds.two_sided and _crooked(shift(bounds, reads.frames, search.gaps), period) > _crooked(bounds, period):
+    if (
+        search.gaps
+        and not bounds.two_sided
+        and _crooked(shift(bounds, reads.frames, search.gaps), period) > _crooked(bounds, period)
+    ):
         return ()
     return search.gaps
 
