@@ -31,10 +31,15 @@ class Recovered:
 
 
 def recover(path: Path | str) -> Recovered:
-    """Redo the file in place and return what was gained; InputError where there is nothing to recover."""
+    """Redo the file in place and return what was gained; InputError where there is nothing to recover.
+
+    A file that was recovered before stays as it is: the same streams give the same grid.
+    """
     path = Path(path)
     with _open(path) as file:
         _refuse_complete(file, path)
+        if (before := _recovered_before(file)) is not None:
+            return Recovered(path, before, before, "It was recovered before: nothing was changed")
         stand = _stand(file, path)
         before = len(file["entry/data/time"]) / GRID_RATE
         streams = read_streams(file)
@@ -62,6 +67,12 @@ def _refuse_complete(file: h5py.File, path: Path) -> None:
         raise InputError("holds no raw streams", where=str(path), remedy="Only this stand's own runs can be recovered")
     if file["entry/events"].attrs.get("complete", False):
         raise InputError("is complete", where=str(path), remedy="There is nothing to recover")
+
+
+def _recovered_before(file: h5py.File) -> float | None:
+    """Seconds of the final grid, s, where the file already has one."""
+    data = file["entry/data"]
+    return None if data.attrs.get("provisional", True) else len(data["time"]) / GRID_RATE
 
 
 def _stand(file: h5py.File, path: Path) -> Stand:
