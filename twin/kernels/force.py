@@ -16,6 +16,7 @@ from twin.kernels.force_layout import (
     B2,
     C1,
     C2,
+    CREEPS,
     DAMPING_SLOPE,
     DRY_SPEED,
     RATIO1,
@@ -23,11 +24,12 @@ from twin.kernels.force_layout import (
     REST,
     RIM,
     SIGNED,
+    SLIDES,
     STIFFNESS_SLOPE,
     THRESHOLD,
     TOLERANCE,
 )
-from twin.kernels.force_leap import CREEPS, SLIDES, leap
+from twin.kernels.force_leap import leap
 from twin.kernels.force_linear import INPUTS, SLOTS, place_drive, propagator, slot_of
 from twin.kernels.force_series import (
     COLUMNS,
@@ -89,7 +91,7 @@ def settle(k, y, x, w):
 def law_at(k, y):
     """Which law serves the guide's friction at this speed."""
     z = abs(y[1]) / k[DRY_SPEED]
-    return SLIDING if z > SLIDES else (CREEPING if z < CREEPS else SMOOTH)
+    return SLIDING if z > k[SLIDES] else (CREEPING if z < k[CREEPS] else SMOOTH)
 
 
 @part
@@ -99,7 +101,7 @@ def trusted(k, C, law, terms, size):
     if size > k[TOLERANCE]:
         eta = min(1.0, 0.9 * (k[TOLERANCE] / size) ** (1.0 / terms))
     z, change = abs(C[V, 0]) / k[DRY_SPEED], swing(C, V, terms, eta) / k[DRY_SPEED]
-    reach = max(z - SLIDES + 1.0, 1.0) if law == SLIDING else REACH
+    reach = max(z - k[SLIDES] + 1.0, 1.0) if law == SLIDING else REACH
     return eta * reach / change if change > reach else eta
 
 
@@ -108,7 +110,7 @@ def calm(k, C, y, law):
     """True where bounds alone show that a converged series holds to the step's end and nothing switches in it."""
     single, moved = k[RIM] == 0.0, C[SUM, SWING + V]
     z = abs(y[1]) / k[DRY_SPEED]
-    if moved > k[DRY_SPEED] * (z - SLIDES if law == SLIDING else REACH):
+    if moved > k[DRY_SPEED] * (z - k[SLIDES] if law == SLIDING else REACH):
         return False
     speed = y[1] if k[SIGNED] != 0.0 else abs(y[1])
     if (speed - moved <= k[THRESHOLD]) if y[6] != 0.0 else (speed + moved >= k[THRESHOLD]):
@@ -135,7 +137,7 @@ def stride(k, y, C, cubic, at, dt):
     for j in range(4):
         C[U + j, 0] = y[j]
     place_drive(C, cubic, at, share)
-    law = SLIDING if abs(y[1]) > SLIDES * k[DRY_SPEED] else SMOOTH
+    law = SLIDING if abs(y[1]) > k[SLIDES] * k[DRY_SPEED] else SMOOTH
     sign = math.copysign(1.0, y[1])
     fast = (1.0 if k[SIGNED] != 0.0 else sign) if y[6] != 0.0 else 0.0
     count, size = series(k, C, share * dt, y[4], y[5], law, sign, fast, 1.0)
@@ -180,7 +182,8 @@ def sample(k, y, C, cubic, drive, i, dt):
 def advance(k, y, drive, dt, out):
     """Carries y over len(drive) - 1 samples; out[i] = u, u', F at sample i + 1. Returns a Status."""
     C, cubic = np.zeros((ROWS, COLUMNS)), np.zeros(4)
-    M, known = np.zeros((SLOTS, INPUTS, 8)), np.zeros(SLOTS)
+    M, known = np.zeros((SLOTS, INPUTS, 4)), np.zeros(SLOTS)
+    acting, end = np.zeros(4), np.zeros(4)
     i, n = 0, len(drive) - 1
     while i < n:
         law = law_at(k, y)
@@ -189,7 +192,10 @@ def advance(k, y, drive, dt, out):
             if known[slot] == 0.0:
                 propagator(k, C, dt, y[4], y[5], law, M[slot])
                 known[slot] = 1.0
-            i = leap(k, y, M[slot], law, drive, i, dt, out)
+            sign = 0.0 if law == CREEPING else math.copysign(1.0, y[1])
+            for j in range(4):
+                acting[j] = M[slot, 8, j] + sign * M[slot, 9, j]
+            i = leap(k, y, M[slot], acting, sign, end, law, drive, i, dt, out)
             if i == n:
                 break
         status = sample(k, y, C, cubic, drive, i, dt)

@@ -11,8 +11,8 @@ from stand.setup import Setup, System
 
 # constants
 MASS, RIM, C1, B1, C2, B2, REST, WEIGHT, DRY, DRY_SPEED = range(10)
-THRESHOLD, DAMPING_SLOPE, STIFFNESS_SLOPE, SIGNED, RATIO1, RATIO2, TOLERANCE = range(10, 17)
-CONSTANTS = 17
+THRESHOLD, DAMPING_SLOPE, STIFFNESS_SLOPE, SIGNED, RATIO1, RATIO2, TOLERANCE, SLIDES, CREEPS = range(10, 19)
+CONSTANTS = 19
 # state: u, u', s, s', whether each strand is taut, whether the threshold speed is passed
 STATE = 7
 #: a pulley lighter (J/r^2) than this share of the weight moves as if it had no mass
@@ -30,7 +30,7 @@ def pack(
     signed: bool = False,
     tolerance: float = TIGHT,
 ) -> NDArray[np.float64]:
-    """The kernel's constants, float64 [17], of the force model (S1 eqs. 1 to 3 and `stand.md`'s balances).
+    """The kernel's constants, float64 [19], of the force model (S1 eqs. 1 to 3 and `stand.md`'s balances).
 
     threshold m/s, damping_slope N s^2/m^2 and stiffness_slope N s/m^2 for the whole fibre; signed: the
     threshold is on u', not on its magnitude. A rig without a pulley, or whose pulley has no mass, is one strand.
@@ -47,4 +47,15 @@ def pack(
     k[DRY], k[DRY_SPEED] = setup.guide_friction, setup.guide_friction_velocity
     k[THRESHOLD], k[DAMPING_SLOPE], k[STIFFNESS_SLOPE] = threshold, damping_slope, stiffness_slope
     k[SIGNED], k[TOLERANCE] = float(signed), tolerance
+    k[SLIDES], k[CREEPS] = _straight(setup.guide_friction / setup.mass, tolerance)
     return k
+
+
+def _straight(deceleration: float, tolerance: float) -> tuple[float, float]:
+    """|v|/v_s above which tanh is 1, and below which it is its argument, to `tolerance` in m/s over a millisecond.
+
+    1 - tanh z = 2 exp(-2 z) and z - tanh z = z^3 / 3 to leading order; at rounding they are 19 and 4e-6.
+    """
+    change = max(1e-3 * deceleration, 1e-300)
+    slides = 0.5 * math.log(max(2.0 * change / tolerance, 1.0))
+    return min(max(slides, 2.0), 19.0), min(max((3.0 * tolerance / change) ** (1.0 / 3.0), 4e-6), 0.1)

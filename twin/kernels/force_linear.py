@@ -1,7 +1,7 @@
 # mypy: allow-untyped-defs, allow-untyped-calls
 """Exact propagation over one sample where nothing switches: between switches the force model is linear.
 
-State at the middle and the end of a sample = M^T (u, u', s, s', drive's cubic, weight and rest tension, friction's
+State at the end of a sample = M^T (u, u', s, s', drive's cubic, weight and rest tension, friction's
 sign). The rows are unit responses, summed from the same series as everything else.
 """
 
@@ -35,12 +35,11 @@ def place_drive(C, cubic, at, share):
 
 
 @part
-def respond(k, C, y, cubic, begin, end, taut1, taut2, law, sign, one, dt):
-    """Carries y linearly from share `begin` to `end` of a sample, in as many steps as the series asks for."""
-    at = begin
-    steps = 0
-    while at < end:
-        share = end - at
+def respond(k, C, y, cubic, taut1, taut2, law, sign, one, dt):
+    """Carries y linearly over a sample, in as many steps as the series asks for."""
+    at, steps = 0.0, 0
+    while at < 1.0:
+        share = 1.0 - at
         for j in range(4):
             C[U + j, 0] = y[j]
         place_drive(C, cubic, at, share)
@@ -50,14 +49,14 @@ def respond(k, C, y, cubic, begin, end, taut1, taut2, law, sign, one, dt):
             eta = 0.9 * (k[TOLERANCE] / size) ** (1.0 / ORDER)
         for j in range(4):
             y[j] = value(C, U + j, int(terms) + 1, eta)
-        at = end if eta == 1.0 else at + eta * share
+        at = 1.0 if eta == 1.0 else at + eta * share
         steps += 1
     return steps
 
 
 @part
 def propagator(k, C, dt, taut1, taut2, law, M):
-    """Fills M [10, 8]: to each unit input the response in the middle (first four) and at the end of a sample."""
+    """Fills M [10, 4]: to each unit input the response at the end of a sample."""
     y, cubic = np.zeros(4), np.zeros(4)
     for column in range(INPUTS):
         y[:] = 0.0
@@ -69,10 +68,8 @@ def propagator(k, C, dt, taut1, taut2, law, M):
         one = 1.0 if column == 8 else 0.0
         sign = 1.0 if column == 9 else 0.0
         # no friction but in its own column: SLIDING with sign 0 leaves it out, CREEPING is linear in v
-        respond(k, C, y, cubic, 0.0, 0.5, taut1, taut2, law, sign, one, dt)
-        M[column, :4] = y
-        respond(k, C, y, cubic, 0.5, 1.0, taut1, taut2, law, sign, one, dt)
-        M[column, 4:] = y
+        respond(k, C, y, cubic, taut1, taut2, law, sign, one, dt)
+        M[column] = y
     C[X, :] = 0.0
 
 
