@@ -1,65 +1,26 @@
-"""One Modbus connection, one request in flight, never a retry: a repeated write would repeat a motion command."""
+"""One Modbus connection, one request in flight, never a retry: a repeated write would repeat a motion command.
+
+The client is pymodbus'. Its hook before each write and after each read takes the times that the ring's clock needs;
+on a real-time thread it answers as fast as bare sockets do (64 registers over loopback: median 0.51 against 0.57 ms).
+"""
 
 from __future__ import annotations
 
-import socket
-import threading
+import termios
 import time
 from collections.abc import Callable
 from types import TracebackType
-from typing import Protocol
 
-import serial
+from pymodbus.exceptions import ConnectionException, ModbusException, ModbusIOException
+from pymodbus.pdu import ModbusPDU
 
 from stand.config import RtuLink, TcpLink
 from stand.errors import DeviceError
-from stand.transport.modbus import RtuFraming, TcpFraming, check_answer
+from stand.transport.clients import make_client
+from stand.transport.modbus import check_answer
+from stand.transport.turns import Turns, turns_of
 
 Clock = Callable[[], float]
-
-
-class _Wire(Protocol):
-    def send(self, data: bytes) -> None: ...
-    def receive(self, size: int) -> bytes: ...
-    def close(self) -> None: ...
-
-
-class _Tcp:
-    def __init__(self, link: TcpLink) -> None:
-        self._socket = socket.create_connection((link.host, link.port), timeout=link.timeout)
-        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-
-    def send(self, data: bytes) -> None:
-        self._socket.sendall(data)
-
-    def receive(self, size: int) -> bytes:
-        return self._socket.recv(512)
-
-    def close(self) -> None:
-        self._socket.close()
-
-
-class _Rtu:
-    def __init__(self, link: RtuLink) -> None:
-        self._silence, self._last = link.interframe, 0.0
-        self._port = serial.Serial(
-            link.port, link.baud, parity=link.parity, stopbits=link.stopbits, timeout=link.timeout, exclusive=False
-        )
-
-    def send(self, data: bytes) -> None:
-        wait = self._last + self._silence - time.monotonic()
-        if wait > 0:
-            time.sleep(wait)
-        self._port.reset_input_buffer()
-        self._port.write(data)
-
-    def receive(self, size: int) -> bytes:
-        data: bytes = self._port.read(size)
-        self._last = time.monotonic()
-        return data
-
-    def close(self) -> None:
-        self._port.close()
 
 
 class ModbusLink:
@@ -67,29 +28,40 @@ class ModbusLink:
 
     def __init__(self, link: TcpLink | RtuLink, clock: Clock = time.monotonic) -> None:
         self.link, self._clock = link, clock
-        self.where = f"{link.host}:{link.port}" if isinstance(link, TcpLink) else link.port
-        self._framing = TcpFraming(link.unit_id) if isinstance(link, TcpLink) else RtuFraming(link.unit_id)
-        self._lock, self._transaction = threading.Lock(), 0
-        self._wire: _Wire | None = None
+        self.where = link.port if isinstance(link, RtuLink) else f"{link.host}:{link.port}"
+        self._turns = turns_of(link.port) if isinstance(link, RtuLink) else Turns()
+        self._silence = link.interframe if isinstance(link, RtuLink) else 0.0
+        #: s that a byte needs on the line: by that much less than it seems, on RTU, the device has had the question
+        self._byte = (10 + (link.parity != "N") + link.stopbits - 1) / link.baud if isinstance(link, RtuLink) else 0.0
+        self._client = make_client(link, self._stamp)
+        self._sent, self._received = 0.0, 0.0
+
+    def _stamp(self, sending: bool, data: bytes) -> bytes:
+        """Called by the client right before it writes and right after it has read."""
+        if sending:
+            self._sent = self._clock() + self._byte * len(data)
+        else:
+            self._received = self._clock() - self._byte * len(data)
+        return data
 
     def open(self) -> None:
         """Connect; DeviceError where nothing answers there. A link that failed opens anew at the next request."""
-        with self._lock:
+        with self._turns.take():
             self._connect()
 
-    def _connect(self) -> _Wire:
+    def _connect(self) -> None:
         try:
-            self._wire = _Tcp(self.link) if isinstance(self.link, TcpLink) else _Rtu(self.link)
-            return self._wire
-        except (OSError, serial.SerialException) as error:
+            self._client.connect()
+        except OSError as error:
             remedy = "Check that the drive is on and the link in the stand's file is right"
             raise DeviceError(f"can't connect ({error})", where=self.where, remedy=remedy) from error
+        except termios.error as error:
+            remedy = 'Check baud, parity and stop bits; a pseudo-terminal takes no parity but "N"'
+            raise DeviceError(f"the port refuses its settings ({error})", where=self.where, remedy=remedy) from error
 
     def close(self) -> None:
         """Disconnect; harmless twice."""
-        if self._wire is not None:
-            self._wire.close()
-            self._wire = None
+        self._client.close()
 
     def __enter__(self) -> ModbusLink:
         self.open()
@@ -98,35 +70,35 @@ class ModbusLink:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, tb: TracebackType | None) -> None:
         self.close()
 
-    def telegram(self, pdu: bytes) -> bytes:
+    def telegram(self, request: ModbusPDU) -> bytes:
         """The complete telegram of one request, for a connection of someone else's."""
-        return self._framing.wrap(pdu, 1)
+        request.dev_id, request.transaction_id = self.link.unit_id, 1
+        return self._client.framer.buildFrame(request)
 
-    def transact(self, pdu: bytes) -> bytes:
+    def transact(self, request: ModbusPDU) -> ModbusPDU:
         """The answer to one request; DeviceError on silence, refusal or nonsense. Nothing is sent twice."""
-        return self.stamped(pdu)[0]
+        return self.stamped(request)[0]
 
-    def stamped(self, pdu: bytes) -> tuple[bytes, float, float]:
-        """The answer, with the host's time just before sending and just after the last byte, s."""
-        with self._lock:
-            wire = self._wire or self._connect()
-            self._transaction = (self._transaction + 1) & 0xFFFF
-            telegram = self._framing.wrap(pdu, self._transaction)
+    def stamped(self, request: ModbusPDU) -> tuple[ModbusPDU, float, float]:
+        """The answer, with the host's times between which the device has looked at the question, s.
+
+        On TCP just before sending and just after the last byte; on RTU less what the bytes need on the line.
+        """
+        request.dev_id = self.link.unit_id
+        with self._turns.take():
+            self._connect()
+            self._turns.pause(self._silence)
             try:
-                sent = self._clock()
-                wire.send(telegram)
-                answer = self._receive(wire)
-                received = self._clock()
-            except (OSError, serial.SerialException) as error:
+                answer = self._client.execute(False, request)
+            except (OSError, ModbusException, termios.error) as error:
                 self.close()  # a late answer must not be taken for the next one's
-                raise DeviceError(f"no answer ({error})", where=self.where, remedy="Check the link") from error
-        return check_answer(pdu, self._framing.unwrap(answer), self.where), sent, received
+                raise DeviceError(
+                    f"no answer ({self._why(error)})", where=self.where, remedy="Check the link"
+                ) from error
+            sent, received = self._sent, self._received
+        return check_answer(request, answer, self.where), sent, received
 
-    def _receive(self, wire: _Wire) -> bytes:
-        received = b""
-        while (missing := self._framing.missing(received)) > 0:
-            part = wire.receive(missing)
-            if not part:
-                raise OSError("silence" if not received else f"only {len(received)} bytes")
-            received += part
-        return received
+    def _why(self, error: Exception) -> str:
+        if isinstance(error, ModbusIOException):
+            return f"nothing that can be read within {self.link.timeout:g} s"
+        return "the connection was closed" if isinstance(error, ConnectionException) else str(error)

@@ -1,16 +1,25 @@
-"""Modbus telegrams, sans-IO: requests and answers as bytes, on TCP and on RTU (Modbus Application Protocol V1.1b3)."""
+"""Modbus questions and answers as pymodbus has them, function 43/13 beside them, and values out of registers."""
 
 from __future__ import annotations
 
 import struct
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+from pymodbus.pdu import ModbusPDU
+from pymodbus.pdu.register_message import (
+    ReadHoldingRegistersRequest,
+    ReadInputRegistersRequest,
+    ReadWriteMultipleRegistersRequest,
+    WriteMultipleRegistersRequest,
+    WriteSingleRegisterRequest,
+)
 
 from stand.errors import DeviceError
 
-READ_HOLDING, READ_INPUT, WRITE_ONE, WRITE_MANY, READ_WRITE, ENCAPSULATED = 3, 4, 6, 16, 23, 43
+READ_WRITE = 23
 CANOPEN = 13
 _EXCEPTIONS = {
     1: "illegal function",
@@ -22,130 +31,110 @@ _EXCEPTIONS = {
 }
 
 
-def read_registers(address: int, count: int, function: int = READ_HOLDING) -> bytes:
+class ObjectRequest(ModbusPDU):
+    """FC 43/13, CANopen general reference: an object read (`data` None) or written (`data` little-endian)."""
+
+    function_code = 0x2B
+
+    def __init__(self, index: int = 0, sub: int = 0, size: int = 0, data: bytes | None = None) -> None:
+        super().__init__()
+        self.index, self.sub, self.size, self.data = index, sub, size, data
+
+    def encode(self) -> bytes:
+        """What follows the function code."""
+        write = self.data is not None
+        head = struct.pack(">BBHHBHBB", CANOPEN, write, 0, self.index, self.sub, 0, 0, self.size)
+        return head + (self.data or b"")
+
+
+class ObjectAnswer(ModbusPDU):
+    """The answer to it; `data` is little-endian."""
+
+    function_code = 0x2B
+
+    def __init__(self, **known: Any) -> None:
+        super().__init__(**known)
+        self.data = b""
+
+    @classmethod
+    def decode_sub_function_code(cls, data: bytes) -> int:
+        """-1 for MEI 13, which is this class's own; else the MEI type."""
+        return -1 if len(data) < 3 or data[2] == CANOPEN else int(data[2])
+
+    @classmethod
+    def calculateRtuFrameSize(cls, data: bytes) -> int:
+        """Bytes of the whole telegram with address and check; 0 where more are needed to tell."""
+        return 15 + data[12] if len(data) > 12 else 0
+
+    def decode(self, data: bytes) -> None:
+        """What follows the function code."""
+        self.data = bytes(data[11 : 11 + data[10]])
+
+
+def read_registers(address: int, count: int, function: int = 3) -> ModbusPDU:
     """FC 3 or 4."""
-    return struct.pack(">BHH", function, address, count)
+    kind = ReadInputRegistersRequest if function == 4 else ReadHoldingRegistersRequest
+    return kind(address=address, count=count)
 
 
-def write_register(address: int, value: int) -> bytes:
+def write_register(address: int, value: int) -> ModbusPDU:
     """FC 6."""
-    return struct.pack(">BHH", WRITE_ONE, address, value)
+    return WriteSingleRegisterRequest(address=address, registers=[value])
 
 
-def write_registers(address: int, values: Sequence[int]) -> bytes:
+def write_registers(address: int, values: Sequence[int]) -> ModbusPDU:
     """FC 16."""
-    n = len(values)
-    return struct.pack(f">BHHB{n}H", WRITE_MANY, address, n, 2 * n, *values)
+    return WriteMultipleRegistersRequest(address=address, registers=list(values))
 
 
-def exchange_registers(read: int, count: int, write: int, values: Sequence[int]) -> bytes:
+def exchange_registers(read: int, count: int, write: int, values: Sequence[int]) -> ModbusPDU:
     """FC 23: the write is done before the read."""
-    n = len(values)
-    return struct.pack(f">BHHHHB{n}H", READ_WRITE, read, count, write, n, 2 * n, *values)
+    return ReadWriteMultipleRegistersRequest(
+        read_address=read, read_count=count, write_address=write, write_registers=list(values)
+    )
 
 
-def read_object(index: int, sub: int, size: int) -> bytes:
+def read_object(index: int, sub: int, size: int) -> ModbusPDU:
     """FC 43/13: an object of `size` bytes."""
-    return struct.pack(">BBBHHBHBB", ENCAPSULATED, CANOPEN, 0, 0, index, sub, 0, 0, size)
+    return ObjectRequest(index, sub, size)
 
 
-def write_object(index: int, sub: int, data: bytes) -> bytes:
+def write_object(index: int, sub: int, data: bytes) -> ModbusPDU:
     """FC 43/13: `data` little-endian."""
-    return struct.pack(">BBBHHBHBB", ENCAPSULATED, CANOPEN, 1, 0, index, sub, 0, 0, len(data)) + data
+    return ObjectRequest(index, sub, len(data), data)
 
 
-def registers(answer: bytes) -> tuple[int, ...]:
+def registers(answer: ModbusPDU) -> Sequence[int]:
     """The registers in the answer to FC 3, 4 or 23."""
-    return struct.unpack_from(f">{answer[1] // 2}H", answer, 2)
+    return answer.registers
 
 
-def object_data(answer: bytes) -> bytes:
-    """The little-endian data in the answer to FC 43/13."""
-    return answer[12 : 12 + answer[11]]
+def register_array(answer: ModbusPDU) -> NDArray[np.uint16]:
+    """The same as uint16 [n]."""
+    return np.array(answer.registers, dtype=np.uint16)
 
 
-def check_answer(request: bytes, answer: bytes, where: str) -> bytes:
+def object_data(answer: ModbusPDU) -> bytes:
+    """The little-endian data in the answer to FC 43/13; DeviceError where it is none."""
+    if not isinstance(answer, ObjectAnswer):
+        raise DeviceError("an answer to another question", value=str(answer), remedy="Check the link")
+    return answer.data
+
+
+def check_answer(request: ModbusPDU, answer: ModbusPDU, where: str) -> ModbusPDU:
     """The answer itself; DeviceError where it is an exception or does not belong to the request."""
-    if answer[:1] == request[:1]:
+    if answer.function_code == request.function_code:
         return answer
-    if answer and answer[0] == request[0] | 0x80:
-        word = _EXCEPTIONS.get(answer[1], f"exception {answer[1]}")
-        raise DeviceError(f"the device refused function {request[0]}: {word}", where=where, value=request.hex())
-    raise DeviceError("an answer to another question", where=where, value=answer.hex(), remedy="Check the link")
+    if answer.function_code == request.function_code | 0x80:
+        word = _EXCEPTIONS.get(answer.exception_code, f"exception {answer.exception_code}")
+        remedy = "Check the profile's map against the drive's manual"
+        raise DeviceError(f"the device refused {_told(request)}: {word}", where=where, remedy=remedy)
+    raise DeviceError("an answer to another question", where=where, value=str(answer), remedy="Check the link")
 
 
-@dataclass(frozen=True, slots=True)
-class TcpFraming:
-    """MBAP header: transaction, protocol 0, length, unit."""
-
-    unit: int
-
-    def wrap(self, pdu: bytes, transaction: int = 0) -> bytes:
-        """The whole telegram."""
-        return struct.pack(">HHHB", transaction & 0xFFFF, 0, len(pdu) + 1, self.unit) + pdu
-
-    def missing(self, received: bytes) -> int:
-        """Bytes still to come, at least."""
-        return 8 - len(received) if len(received) < 8 else 6 + int.from_bytes(received[4:6], "big") - len(received)
-
-    def unwrap(self, telegram: bytes) -> bytes:
-        """What the telegram carries."""
-        return telegram[7:]
-
-
-@dataclass(frozen=True, slots=True)
-class RtuFraming:
-    """Unit address, PDU, CRC-16 low byte first."""
-
-    unit: int
-
-    def wrap(self, pdu: bytes, transaction: int = 0) -> bytes:
-        """The whole telegram."""
-        body = bytes((self.unit,)) + pdu
-        return body + struct.pack("<H", crc16(body))
-
-    def missing(self, received: bytes) -> int:
-        """Bytes still to come, at least."""
-        if len(received) < 5:
-            return 5 - len(received)
-        return _rtu_length(received) - len(received)
-
-    def unwrap(self, telegram: bytes) -> bytes:
-        """What the telegram carries; DeviceError on a wrong checksum."""
-        if crc16(telegram[:-2]) != int.from_bytes(telegram[-2:], "little"):
-            raise DeviceError("wrong checksum", value=telegram.hex(), remedy="Check baud, parity and termination")
-        return telegram[1:-2]
-
-
-def _rtu_length(received: bytes) -> int:
-    function = received[1]
-    if function & 0x80:
-        return 5
-    if function in (WRITE_ONE, WRITE_MANY):
-        return 8
-    if function == ENCAPSULATED:
-        return 15 + received[12] if len(received) > 12 else 15
-    return 5 + received[2]
-
-
-def _crc_table() -> tuple[int, ...]:
-    table = []
-    for byte in range(256):
-        for _ in range(8):
-            byte = (byte >> 1) ^ 0xA001 if byte & 1 else byte >> 1
-        table.append(byte)
-    return tuple(table)
-
-
-_TABLE = _crc_table()
-
-
-def crc16(data: bytes) -> int:
-    """CRC-16/MODBUS."""
-    crc = 0xFFFF
-    for byte in data:
-        crc = (crc >> 8) ^ _TABLE[(crc ^ byte) & 0xFF]
-    return crc
+def _told(request: ModbusPDU) -> str:
+    at = f"object {request.index:04X}:{request.sub:02X}" if isinstance(request, ObjectRequest) else ""
+    return f"function {request.function_code} at {at or f'register {request.address}'}"
 
 
 def words(value: int, bits: int, order: str) -> list[int]:
@@ -163,8 +152,3 @@ def number(parts: Sequence[int], bits: int, signed: bool, order: str) -> int:
         value = value << 16 | int(part)
     value &= (1 << bits) - 1
     return value - (1 << bits) if signed and value >> (bits - 1) else value
-
-
-def register_array(answer: bytes) -> np.ndarray:
-    """The registers in the answer to FC 3 as uint16 [n]."""
-    return np.frombuffer(answer, ">u2", offset=2, count=answer[1] // 2).astype(np.uint16)

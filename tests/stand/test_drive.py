@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pymodbus.pdu import ExceptionResponse
+from pymodbus.pdu.register_message import WriteSingleRegisterResponse
 
-from stand.config import RtuLink, load_stand
+from stand.config import RtuLink, TcpLink, load_stand
 from stand.drive import cia402
 from stand.drive.address import parse_address
 from stand.drive.cia402 import State
@@ -18,6 +20,7 @@ from stand.drive.image import parse_layout
 from stand.drive.profile import load_profile, parse_profile, profile_names
 from stand.errors import DeviceError, InputError
 from stand.transport import modbus
+from stand.transport.link import ModbusLink
 from stand.transport.raw import RawRegisters
 from stand.transport.ring import RingDecoder
 
@@ -81,24 +84,29 @@ def test_a_value_that_does_not_fit_is_refused_and_never_clipped() -> None:
 
 
 def test_the_vendors_sample_telegrams_come_out_byte_for_byte() -> None:
-    read = modbus.TcpFraming(0).wrap(modbus.read_object(0x6041, 0, 2))
-    assert read == bytes.fromhex("00000000000d002b0d0000006041000000 0002".replace(" ", ""))
-    write = modbus.TcpFraming(0).wrap(modbus.write_object(0x6040, 0, b"\x06\x00"))
-    assert write == bytes.fromhex("00000000000f002b0d01000060400000000002 0600".replace(" ", ""))
-    reply = bytes.fromhex("2b0d00000060410000000002 2716".replace(" ", ""))
+    link = ModbusLink(TcpLink(unit_id=0))
+    read = link.telegram(modbus.read_object(0x6041, 0, 2))
+    assert read[2:] == bytes.fromhex("00000000000d002b0d0000006041000000 0002".replace(" ", ""))[2:]
+    write = link.telegram(modbus.write_object(0x6040, 0, b"\x06\x00"))
+    assert write[2:] == bytes.fromhex("00000000000f002b0d01000060400000000002 0600".replace(" ", ""))[2:]
+    reply = modbus.ObjectAnswer()
+    reply.decode(bytes.fromhex("0d00000060410000000002 2716".replace(" ", "")))
     assert parse_address("6041:0/u16").decode(modbus.object_data(reply)) == 0x1627
 
 
 def test_a_published_rtu_telegram_has_the_published_checksum() -> None:
     telegram = bytes.fromhex("07106200000810000100002710000027102710000000108d50")
-    assert modbus.crc16(telegram[:-2]) == int.from_bytes(telegram[-2:], "little")
+    link = ModbusLink(RtuLink(kind="rtu", port="x", unit_id=7))
+    values = [0x0001, 0x0000, 0x2710, 0x0000, 0x2710, 0x2710, 0x0000, 0x0010]
+    assert link.telegram(modbus.write_registers(0x6200, values)) == telegram
 
 
 def test_a_refusal_names_its_reason_and_a_strangers_answer_is_not_taken() -> None:
-    with pytest.raises(DeviceError, match="illegal data address"):
-        modbus.check_answer(modbus.read_registers(1, 1), b"\x83\x02", "drive")
+    asked = modbus.read_registers(1, 1)
+    with pytest.raises(DeviceError, match="function 3 at register 1: illegal data address"):
+        modbus.check_answer(asked, ExceptionResponse(3, 2), "drive")
     with pytest.raises(DeviceError, match="another question"):
-        modbus.check_answer(modbus.read_registers(1, 1), b"\x06\x00\x00\x00\x00", "drive")
+        modbus.check_answer(asked, WriteSingleRegisterResponse(registers=[0]), "drive")
 
 
 def test_the_quick_stop_is_one_complete_telegram_on_either_link() -> None:
@@ -108,7 +116,7 @@ def test_the_quick_stop_is_one_complete_telegram_on_either_link() -> None:
     rtu = stand.model_copy(update={"drive": stand.drive.model_copy(update={"link": RtuLink(kind="rtu", port="x")})})
     (serial,) = quick_stop_telegrams(rtu)
     assert serial[:-2] == bytes.fromhex("010617700002")
-    assert modbus.crc16(serial[:-2]) == int.from_bytes(serial[-2:], "little")
+    assert serial == ModbusLink(RtuLink(kind="rtu", port="x")).telegram(modbus.write_register(6000, 2))
 
 
 def test_every_profile_in_the_folder_loads_and_can_stop_its_drive() -> None:

@@ -6,6 +6,8 @@ import importlib
 from collections.abc import Mapping
 from typing import Protocol
 
+from pymodbus.pdu import ModbusPDU
+
 from stand.drive.profile import DriveProfile
 from stand.transport.link import ModbusLink
 
@@ -31,7 +33,7 @@ class Backend(Protocol):
     def command(self, values: Mapping[str, int]) -> Mapping[str, int]:
         """Write several values at once where the drive can, and take a snapshot."""
 
-    def quick_stop(self, value: int) -> bytes:
+    def quick_stop(self, value: int) -> ModbusPDU:
         """The request that writes the controlword `value`."""
 
 

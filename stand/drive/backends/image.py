@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+
+from pymodbus.pdu import ModbusPDU
 
 from stand.drive.address import Address, parse_address
-from stand.drive.backends.mei13 import Mei13
+from stand.drive.backends import mei13
 from stand.drive.image import ImageLayout, parse_layout
 from stand.drive.profile import DriveProfile
 from stand.errors import DeviceError
@@ -19,7 +21,7 @@ class ImageBackend:
     def __init__(self, profile: DriveProfile, link: ModbusLink) -> None:
         assert profile.image is not None, "checked when the profile was read"
         self.profile, self.link, self.image = profile, link, profile.image
-        self.objects = Mei13(profile, link)
+        self.objects = mei13.make(profile, link)
         self.tx = self._layout(self.image.tx_map, "tx_map")
         self.rx = self._layout(self.image.rx_map, "rx_map")
         self._rx_values: dict[str, int] = {}
@@ -40,7 +42,8 @@ class ImageBackend:
 
     def _map(self, index: str, layout: ImageLayout) -> None:
         def write(sub: int, value: int, bits: int) -> None:
-            self.objects.write_object(parse_address(f"{index}:{sub:x}/u{bits}"), value)
+            place = mei13.object_place(parse_address(f"{index}:{sub:x}/u{bits}"))
+            self.link.transact(place.write(value))
 
         write(0, 0, 8)
         for sub, (_, address) in enumerate(layout.entries, start=1):
@@ -53,13 +56,14 @@ class ImageBackend:
         probe = parse_address(self.profile.encoding.probe.object if self.profile.encoding.probe else "6064:0/i32")
         name = next((n for n, a in self.tx.entries if (a.index, a.sub) == (probe.index, probe.sub)), "")
         registers = self._read_tx()
-        true = {"32": self.objects.read_object(probe), "8": self.objects.read("mode_display")}
+        place = mei13.object_place(probe)
+        true = {"32": place.decode(self.link.transact(place.ask)), "8": self.objects.read("mode_display")}
         word = _agreeing(self.tx, registers, name, true["32"], "word_order", probe)
         byte = _agreeing(self.tx, registers, "mode_display", true["8"], "byte_order", probe)
         self.tx, self.rx = self.tx.reordered(word, byte), self.rx.reordered(word, byte)
         return [f"word order {word}, byte order {byte}"]
 
-    def _read_tx(self) -> tuple[int, ...]:
+    def _read_tx(self) -> Sequence[int]:
         return modbus.registers(self.link.transact(modbus.read_registers(self.image.tx, self.tx.size)))
 
     def has(self, name: str) -> bool:
@@ -94,14 +98,14 @@ class ImageBackend:
         request = modbus.exchange_registers(self.image.tx, self.tx.size, self.image.rx, data)
         return self.tx.unpack(modbus.registers(self.link.transact(request)))
 
-    def quick_stop(self, value: int) -> bytes:
+    def quick_stop(self, value: int) -> ModbusPDU:
         """The request that writes the controlword alone."""
         if self.rx.entries[0][0] == "controlword":
             return modbus.write_register(self.image.rx, value)
         return self.objects.quick_stop(value)
 
 
-def _agreeing(layout: ImageLayout, registers: tuple[int, ...], name: str, true: int, key: str, probe: Address) -> str:
+def _agreeing(layout: ImageLayout, registers: Sequence[int], name: str, true: int, key: str, probe: Address) -> str:
     """The order under which the image shows the true value, or comes nearest to it (it may be moving)."""
     orders = {"word_order": layout.word_order, "byte_order": layout.byte_order}
     off = {}
