@@ -76,7 +76,7 @@ def run(stand: Runs, announce: Path | None, parent: int | None, failed: Callable
     from mocks.devices.priority import raise_priority
 
     raise_priority()
-    sys.setswitchinterval(2e-4)
+    sys.setswitchinterval(5e-5)
     ending = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: ending.set())

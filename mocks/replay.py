@@ -65,7 +65,7 @@ class ReplayedStand:
         self.lock = threading.Lock()
         registers = LockedRegisters(self.drive, (RING, INPUTS, TX, RX), self.lock, self._look)
         self.relay = Relay(self.folder, "drive", 115_200)
-        self.servers = DriveServers(registers, 0, self.relay.device, 115_200)
+        self.servers = DriveServers(registers, (RING, TX, RX), 0, self.relay.device, 115_200)
         self.loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self.loop.run_forever, name="modbus", daemon=True)
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from mocks.battery.draw import KINDS, battery
-from mocks.battery.store import answer, write
+from mocks.battery.store import write
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -22,7 +22,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if given.out:
             print(write(case, given.out))
         else:
-            print(case.name, case.kind, *(f"{h['name']} {h['parameters']}" for h in answer(case)["hidden"]))
+            print(case.name, case.kind, *(f"{name} {dict(values)}" for name, values in case.hidden.items()))
     return 0
 
 

@@ -158,6 +158,13 @@ def _null(main: Size) -> float:
     return main.null if math.isfinite(main.null) else 0.0
 
 
+def distance_of(main: Size) -> tuple[float, float, float]:
+    """The null of a size, and how near and how far from it a draw may lie."""
+    null = _null(main)
+    ends = sorted((abs(main.low - null), abs(main.high - null)))
+    return null, ends[0], ends[1]
+
+
 def size_for(name: str, wanted: float) -> float:
     """Size at which an effect shows about as strongly as wanted: a power law through the measured table, in range."""
     table, main = np.array(_measured()[name]), main_size(find(name))

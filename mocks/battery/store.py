@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from mocks.battery.draw import Case
+from mocks.battery.settle import settled
 from mocks.record import record, told, write_truth
 
 TRUTH = "truth.json"
@@ -18,17 +20,21 @@ def write(case: Case, folder: Path, seconds: float = 10.0) -> Path:
     if (place / TRUTH).exists():
         return place
     place.mkdir(parents=True, exist_ok=True)
+    case, strengths = settled(case)
     for k, motion in enumerate(case.motions, 1):
         path = place / f"run-{k}.h5"
         record(case.stand, motion, path=path, seconds=seconds, seed=case.seed + k, hidden=case.hidden, noise=case.noise)
         path.with_suffix(".truth.json").unlink()
-    write_truth(place / "truth.h5", answer(case)).rename(place / TRUTH)
+    write_truth(place / "truth.h5", answer(case, strengths)).rename(place / TRUTH)
     return place
 
 
-def answer(case: Case) -> dict[str, Any]:
-    """What a right diagnosis would say."""
-    hidden = [told(name, values) | {"wanted_strength": case.wanted[name]} for name, values in case.hidden.items()]
+def answer(case: Case, strengths: Mapping[str, float]) -> dict[str, Any]:
+    """What a right diagnosis would say; strengths as measured on this stand."""
+    hidden = [
+        told(name, values) | {"wanted_strength": case.wanted[name], "strength": strengths[name]}
+        for name, values in case.hidden.items()
+    ]
     return {"kind": case.kind, "hidden": hidden, "seed": case.seed, "number": case.number}
 
 

@@ -35,9 +35,7 @@ class Axis:
         """What the plant's servo gets: (x, x', x'') [n, 3]."""
         if times[0] < self.frozen_until:
             return np.tile([self.actual - self.rest, 0.0, 0.0], (len(times), 1))
-        found = self.demand.sample(times)
-        found[:, 0] -= self.rest
-        return found
+        return self.demand.sample(times, self.rest)
 
     def moved(self, times: Float, position: Float) -> Float:
         """The plant's answer; returns it as travel [n]."""

@@ -23,6 +23,10 @@ class DeviceClock:
         """True times at device times."""
         return self.epoch + device / (1.0 + self.drift)
 
+    def moment(self, device: float) -> float:
+        """The true time at a device time."""
+        return self.epoch + device / (1.0 + self.drift)
+
     def rebased(self, true: float) -> DeviceClock:
         """The same rate, counted from another time."""
         return DeviceClock(true, self.drift)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from time import monotonic
@@ -11,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocks.devices.clock import DeviceClock
+from mocks.devices.kernels import digitise, sample_times
 from mocks.ledger import DROPPED, FAULTY, OVERRUN, SPOILT, Rows
 from mocks.wire.line import Adapter, Line
 from mocks.wire.terminal import Terminal
@@ -80,7 +82,6 @@ class Gauge:
     tick: int = 0
     newest: float = 0.0
     tare: float = 0.0
-    lateness: float = np.inf
     wake: float = -np.inf
     release: float = -np.inf
     delay: float = 0.0
@@ -128,46 +129,51 @@ class Gauge:
         return self.terminal.watched()
 
     def _sample(self, now: float, held: bool) -> None:
-        last = int(np.floor(self.clock.device(now) * self.rate))
-        if last < self.tick:
+        first, last = self.tick, math.floor(self.clock.device(now) * self.rate)
+        if last < first:
             return
-        ticks = np.arange(self.tick, last + 1)
         self.tick = last + 1
-        if not self.streaming or not held:
-            self._miss(ticks)
-            return
-        self._measure(ticks)
+        act = self._measure if self.streaming and held else self._miss
+        act(first, last + 1 - first)
 
-    def _miss(self, ticks: NDArray[np.int64]) -> None:
-        due = self.clock.true(ticks[-1:] / self.rate)
-        self.newest = float(self._read(due)[0][0])
-        self.counter += len(ticks)
+    def _times(self, first: int, count: int) -> tuple[Float, Float]:
+        """The device's and the true times of its samples."""
+        tick, time = np.empty((2, count))
+        sample_times(first, self.rate, self.clock.epoch, self.clock.drift, tick, time)
+        return tick, time
 
-    def _read(self, times: Float) -> tuple[Float, Float]:
-        """What the gauge reads, and the truth in its own zero."""
+    def _miss(self, first: int, count: int) -> None:
+        _, due = self._times(first + count - 1, 1)
+        self.newest = float(self._read(due, np.empty(1, np.bool_))[0][0])
+        self.counter += count
+
+    def _read(self, times: Float, faulty: NDArray[np.bool_]) -> tuple[Float, Float, bool]:
+        """What the gauge reads, the truth in its own zero, and whether some of it is marked as faulty."""
         s = self.sensing
         sensed, true = self.signal(times)
-        zero = s.zero - self.tare
-        values = sensed + (zero + s.noise * self.rng.standard_normal(len(times)))
-        if times[0] < self.trouble.spike:
-            values = values + np.where(times < self.trouble.spike, self.trouble.spike_value, 0.0)
-        return np.rint(values / s.step) * s.step if s.step else values, true + zero
+        zero, values, trouble = s.zero - self.tare, self.rng.standard_normal(len(times)), self.trouble
+        spike = trouble.spike, trouble.spike_value
+        limits = s.limit, trouble.faulty
+        some = digitise(sensed, times, s.noise, zero, s.step, *spike, *limits, values, faulty)
+        return values, true + zero, some
 
-    def _measure(self, ticks: NDArray[np.int64]) -> None:
-        times = self.clock.true(ticks / self.rate)
-        values, true = self._read(times)
-        faulty = (np.abs(values) > self.sensing.limit) | (times < self.trouble.faulty)
+    def _measure(self, first: int, count: int) -> None:
+        tick, times = self._times(first, count)
+        faulty = np.empty(count, np.bool_)
+        values, true, some = self._read(times, faulty)
         frames, told = self.head.encode(values, faulty)
         self.newest = float(told[-1])
-        rows = Rows.of(self.counter + np.arange(len(ticks)), ticks / self.rate, times, told, true)
-        self.counter += len(ticks)
-        if faulty.any():
+        rows = Rows.of(np.arange(self.counter, self.counter + count), tick, times, told, true)
+        self.counter += count
+        if some:
+            rows.clean = False
             rows.flags[faulty] |= FAULTY
         self._queue(rows, self._spoil(frames, rows))
 
     def _spoil(self, frames: NDArray[np.uint8], rows: Rows) -> NDArray[np.uint8]:
         trouble = self.trouble
         for k in range(len(frames) if trouble.drop or trouble.corrupt else 0):
+            rows.clean = False
             if trouble.drop > 0:
                 trouble.drop -= 1
                 rows.flags[k] |= DROPPED
@@ -176,12 +182,13 @@ class Gauge:
                 rows.flags[k] |= SPOILT
                 frames[k, self.rng.integers(self.head.frame_bytes)] ^= 0xFF
         if rows.true_time[0] < trouble.silent:
+            rows.clean = False
             rows.flags[rows.true_time < trouble.silent] |= DROPPED
         return frames
 
     def _queue(self, rows: Rows, frames: NDArray[np.uint8]) -> None:
         ready = rows.true_time + self.sensing.conversion
-        if not rows.flags.any():
+        if rows.clean:
             rows.due[:] = self.line.put_frames(frames, ready)
             rows.place[:] = self._queued + self.head.frame_bytes * np.arange(1, len(rows) + 1)
         else:
@@ -218,11 +225,10 @@ class Gauge:
     def _book(self, rows: Rows, end: int, handed: float) -> None:
         rows.handed[:] = handed
         if rows.place[-1] > end:
+            rows.clean = False
             rows.flags[(rows.place > end) & (rows.flags & DROPPED == 0)] |= OVERRUN
-        if rows.flags.any():
+        if not rows.clean:
             rows.handed[rows.flags & (DROPPED | OVERRUN) != 0] = np.nan
-        else:
-            self.lateness = min(self.lateness, handed - self.delay - float(rows.due[-1]))
         self.log(rows)
 
     def _forget(self) -> None:
@@ -238,7 +244,7 @@ class Gauge:
             self.wake = self.release + self.delay
             return
         period = 1.0 / self.rate
-        first = float(self.clock.true(np.array([self.tick * period]))[0])
+        first = self.clock.moment(self.tick * period)
         ready = first + (self.batch - 1) * period + self.sensing.conversion
         self.wake = max(ready + self.head.frame_bytes * self.line.byte_time + self.delay, now + 1e-4)
 
@@ -251,7 +257,7 @@ class Gauge:
         if rate is not None and rate != self.rate:
             if not 0.0 < rate * self.head.frame_bytes * self.line.byte_time <= 1.0:
                 raise ValueError(f"{rate} Hz needs more than the line's {1.0 / self.line.byte_time:.0f} bytes a second")
-            start = float(self.clock.true(np.array([self.tick / self.rate]))[0])
+            start = self.clock.moment(self.tick / self.rate)
             self.clock, self.tick, self.rate = self.clock.rebased(start), 0, rate
         return self.rate
 

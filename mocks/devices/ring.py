@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import struct
 from collections.abc import Callable
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mocks.devices.clock import DeviceClock
+from mocks.devices.kernels import take_ring
 
 Float = NDArray[np.float64]
 
@@ -31,6 +33,7 @@ class Ring:
         self.resolution, self.noise = encoder
         self.count = 0
         self.cells = np.zeros(DEPTH, np.int32)
+        self._before = (np.inf, 0.0)
 
     def measure(self, position: Float) -> Float:
         """What the encoder makes of positions [n]."""
@@ -39,16 +42,16 @@ class Ring:
 
     def record(self, times: Float, position: Float) -> None:
         """Take every sample that is due by times[-1]; times [n] are the true times of positions [n]."""
-        last = int(np.floor(self.clock.device(float(times[-1])) * RATE))
-        if last < self.count:
-            return
-        counter = np.arange(self.count, last + 1)
-        due = self.clock.true(counter / RATE)
-        true = np.interp(due, times, position)
-        counts = np.rint(self.measure(true) / UNIT).astype(np.int64)
-        self.cells[counter % DEPTH] = counts
-        self.count = last + 1
-        self.sampled(counter, due, np.multiply(counts, UNIT, dtype=np.float64), true)
+        last = math.floor(self.clock.device(float(times[-1])) * RATE)
+        if last >= self.count:
+            noise = self.rng.standard_normal(last + 1 - self.count)
+            due, value, true = take_ring(
+                self.count, *self._before, times, position, RATE, self.clock.epoch, self.clock.drift, noise, self.noise,
+                self.resolution, UNIT, self.cells,
+            )  # fmt: skip
+            self.sampled(np.arange(self.count, last + 1), due, value, true)
+            self.count = last + 1
+        self._before = float(times[-1]), float(position[-1])
 
     def registers(self, word_order: str) -> list[int]:
         """The 64 registers at 2000: number of samples so far, then the cells."""

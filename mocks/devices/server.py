@@ -8,9 +8,10 @@ from collections.abc import Awaitable, Callable
 from typing import Any, Protocol
 
 from pymodbus.constants import ExcCodes
-from pymodbus.server import ModbusSerialServer, ModbusTcpServer
+from pymodbus.server import ModbusSerialServer
 from pymodbus.simulator import DataType, SimData, SimDevice
 
+from mocks.devices.quick import QuickServer
 from mocks.wire.canopen import Access, ObjectError, request_for
 
 BLOCK = 64
@@ -53,10 +54,12 @@ def device(registers: Registers) -> SimDevice:
 
 
 class DriveServers:
-    """Both servers, in the running asyncio loop. port: of TCP once started."""
+    """Both servers, in the running asyncio loop. port: of TCP once started; live: blocks that have no memory."""
 
-    def __init__(self, registers: Registers, port: int = 0, rtu: str | None = None, baud: int = 115_200) -> None:
-        self.registers, self.port, self.rtu, self.baud = registers, port, rtu, baud
+    def __init__(
+        self, registers: Registers, live: tuple[int, ...], port: int = 0, rtu: str | None = None, baud: int = 115_200
+    ) -> None:
+        self.registers, self.live, self.port, self.rtu, self.baud = registers, live, port, rtu, baud
         access: Access = registers.access
         self._pdu: list[Any] = [request_for(access)]
         self._tcp: Any = None
@@ -73,7 +76,8 @@ class DriveServers:
 
     async def listen(self) -> None:
         """The TCP side alone."""
-        self._tcp = ModbusTcpServer(device(self.registers), address=("127.0.0.1", self.port), custom_pdu=self._pdu)
+        context, address = device(self.registers), ("127.0.0.1", self.port)
+        self._tcp = QuickServer(self.registers, self.live, context, address=address, custom_pdu=self._pdu)
         await self._tcp.serve_forever(background=True)
         self.port = self._tcp.transport.sockets[0].getsockname()[1]
 

@@ -22,6 +22,7 @@ from mocks.devices.gauge import Gauge, Head, Sensing
 from mocks.devices.heads import DialHead, ForceHead
 from mocks.devices.latency import drive_latency
 from mocks.devices.nanotec import INPUTS, RING, RX, TX, NanotecDrive
+from mocks.devices.rehearsal import rehearse
 from mocks.devices.ring import Ring
 from mocks.devices.scheduler import Scheduler
 from mocks.devices.server import DriveServers, LockedRegisters
@@ -64,6 +65,7 @@ class SimulatedStand:
             "force_gauge": self._gauge("force_gauge", config.force_gauge, ForceHead(), FORCE),
             "dial_gauge": self._gauge("dial_gauge", config.dial_gauge, DialHead(), WEIGHT),
         }
+        rehearse(self.world, self.gauges.values())
         if self.ledger:
             self.ledger.describe(self.facts())
         self.scheduler = Scheduler(self.world, list(self.gauges.values()), self._flush)
@@ -71,7 +73,8 @@ class SimulatedStand:
         bases = (RING, INPUTS, TX, RX)
         self.registers = LockedRegisters(self.drive, bases, self.lock, self.world.advance)
         self.relay = Relay(self.folder, "drive", config.drive.rtu_baud)
-        self.servers = DriveServers(self.registers, config.drive.tcp_port, self.relay.device, config.drive.rtu_baud)
+        live, drive = (RING, TX, RX), config.drive
+        self.servers = DriveServers(self.registers, live, drive.tcp_port, self.relay.device, drive.rtu_baud)
         self.control = Control(self)
         self.control_port = 0
         self.loop = asyncio.new_event_loop()

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mocks.devices.kernels import sample_path
+
 Float = NDArray[np.float64]
 State = tuple[float, float]
+Piece = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,25 +29,20 @@ class Trajectory:
     """Pieces of constant acceleration: rows (time, position, velocity, acceleration); the last one holds on."""
 
     def __init__(self, time: float, position: float) -> None:
-        self.pieces, self.end = np.array([[time, position, 0.0, 0.0]]), time
+        self.hold(time, position)
 
-    def sample(self, times: Float) -> Float:
-        """(x, x', x'') [n, 3] at times [n]."""
-        if times[0] >= self.end:
-            rest = np.zeros((len(times), 3))
-            rest[:, 0] = self.pieces[-1, 1]
-            return rest
-        piece = self.pieces[np.maximum(np.searchsorted(self.pieces[:, 0], times, side="right") - 1, 0)]
-        t = times - piece[:, 0]
-        x, v, a = piece[:, 1], piece[:, 2], piece[:, 3]
-        return np.stack([x + t * (v + 0.5 * a * t), v + a * t, a], axis=-1)
+    def sample(self, times: Float, origin: float = 0.0) -> Float:
+        """(x - origin, x', x'') [n, 3] at rising times [n]."""
+        found: Float = sample_path(self.pieces, self.end, times, origin)
+        return found
 
     def state(self, time: float) -> State:
         """Position and velocity at a time."""
         if time >= self.end:
-            return float(self.pieces[-1, 1]), 0.0
-        x, v, _ = self.sample(np.array([time]))[0]
-        return float(x), float(v)
+            return self._target, 0.0
+        begin, x, v, a = self._rows[max(bisect(self._begins, time) - 1, 0)]
+        t = time - begin
+        return x + t * (v + 0.5 * a * t), v + a * t
 
     def done(self, time: float) -> bool:
         """Whether all is at its end by then."""
@@ -63,7 +62,7 @@ class Trajectory:
 
     def hold(self, time: float, position: float) -> None:
         """At rest at `position` from `time` on."""
-        self.pieces, self.end = np.array([[time, position, 0.0, 0.0]]), time
+        self._set([(time, position, 0.0, 0.0)])
 
     def follow(self, time: float, start: State, steps: list[tuple[float, float]], target: float) -> None:
         """From a state at `time` through (duration, acceleration) steps, then at rest at `target`."""
@@ -72,7 +71,11 @@ class Trajectory:
             if span > 0.0:
                 rows.append((time, x, v, a))
                 x, v, time = x + span * (v + 0.5 * a * span), v + a * span, time + span
-        self.pieces, self.end = np.array([*rows, (time, target, 0.0, 0.0)]), time
+        self._set([*rows, (time, target, 0.0, 0.0)])
+
+    def _set(self, rows: list[Piece]) -> None:
+        self._rows, self._begins, self._target = rows, [row[0] for row in rows], rows[-1][1]
+        self.pieces, self.end = np.array(rows), rows[-1][0]
 
 
 def move_pieces(start: State, target: float, ramps: Ramps) -> list[tuple[float, float]]:

@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from mocks.devices.kernels import keep, look_up
 from mocks.plant.plant import GRID, Plant, Slice
 
 Float = NDArray[np.float64]
@@ -15,7 +16,7 @@ Float = NDArray[np.float64]
 #: rows of what is kept: drive; weight and force as sensed and as they are
 X, U, TRUE_U, F, TRUE_F = range(5)
 WEIGHT, FORCE = slice(1, 3), slice(3, 5)
-CHUNK = 40
+CHUNK = 80
 _KEPT = 40_000
 
 
@@ -60,7 +61,7 @@ class World:
         if self._end + n > self._kept.shape[1]:
             self._kept[:, :_KEPT] = self._kept[:, self._end - _KEPT : self._end]
             self._end = _KEPT
-        self._kept[:, self._end : self._end + n] = run.x, run.u, run.truth[:, 2], run.F, run.truth[:, 6]
+        keep(self._kept, self._end, run.x, run.u, run.truth[:, 2], run.F, run.truth[:, 6])
         self._end += n
 
     def load(self, mass: float) -> None:
@@ -68,15 +69,14 @@ class World:
         self.plant.load(mass)
 
     def at(self, channels: slice, times: Float) -> Float:
-        """Channels [m, n] at times [n], straight between grid points; ValueError for a time that is not kept."""
-        place = (times - self.start) / GRID - (self._steps - self._end + 1)
-        if not (self._end - _KEPT <= place[0] and place[-1] <= self._end - 1 + 1e-6):
+        """Two channels [2, n] at times [n], straight between grid points; ValueError for a time that is not kept."""
+        shift = self._steps - self._end + 1
+        first, last = ((float(t) - self.start) / GRID - shift for t in (times[0], times[-1]))
+        if not (self._end - _KEPT <= first and last <= self._end - 1 + 1e-6):
             kept = f"the plant is at {self.now:.6f} s and keeps {_KEPT * GRID:g} s"
             raise ValueError(f"{kept}; asked for {times[0]:.6f} to {times[-1]:.6f} s")
-        below = np.minimum(place.astype(np.int64), self._end - 2)
-        share = place - below
-        rows = self._kept[channels]
-        values: Float = rows[:, below] * (1.0 - share) + rows[:, below + 1] * share
+        values = np.empty((2, len(times)))
+        look_up(self._kept, channels.start, times, self.start, GRID, float(shift), self._end - 2, values)
         return values
 
     def pair(self, channels: slice, times: Float) -> tuple[Float, Float]:

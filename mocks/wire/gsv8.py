@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 PREFIX, SUFFIX = 0xAA, 0x85
@@ -17,10 +18,18 @@ _REQUEST, _ANSWER, _MEASURED, _FLOAT = 0x90, 0x50, 0x10, 0xB0
 
 def frames(values: NDArray[np.float64], overload: NDArray[np.bool_]) -> NDArray[np.uint8]:
     """Measuring frames uint8 [n, 8] for values [n] in N: AA 10 B0 f f f f 85, status B1 where overloaded."""
-    data = np.empty((len(values), FRAME_BYTES), np.uint8)
-    data[:, 0], data[:, 1], data[:, 7] = PREFIX, _MEASURED, SUFFIX
-    data[:, 2] = _FLOAT | overload
-    data[:, 3:7] = values.astype(">f4").view(np.uint8).reshape(-1, 4)
+    data: NDArray[np.uint8] = _frames(values.astype(np.float32).view(np.uint32), overload)
+    return data
+
+
+@njit(cache=True)
+def _frames(bits, overload):  # type: ignore[no-untyped-def]
+    data = np.empty((bits.size, FRAME_BYTES), np.uint8)
+    for i in range(bits.size):
+        data[i, 0], data[i, 1], data[i, 7] = PREFIX, _MEASURED, SUFFIX
+        data[i, 2] = _FLOAT | overload[i]
+        for k in range(4):
+            data[i, 3 + k] = (bits[i] >> np.uint32(24 - 8 * k)) & np.uint32(0xFF)
     return data
 
 

@@ -6,26 +6,47 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 FRAME_BYTES = 15
 UNIT = 1e-7  # m
 ALARM = 9_500_000  # counts that say: no valid value
 _TEMPLATE = np.frombuffer(b"%01$+0000000**\r", np.uint8)
-_POWERS = 10 ** np.arange(6, -1, -1)
 
 
 def counts(values: NDArray[np.float64], alarm: NDArray[np.bool_]) -> NDArray[np.int64]:
     """Values [n] in m as counts of 0.1 um; ALARM where the gauge has none or is out of its +-950 mm."""
-    found = np.rint(values / UNIT).astype(np.int64)
-    return np.where(alarm | (np.abs(found) >= ALARM), ALARM, found)
+    found: NDArray[np.int64] = _counts(values, alarm)
+    return found
+
+
+@njit(cache=True)
+def _counts(values, alarm):  # type: ignore[no-untyped-def]
+    found = np.empty(values.size, np.int64)
+    for i in range(values.size):
+        count = np.int64(np.rint(values[i] / UNIT))
+        found[i] = ALARM if alarm[i] or abs(count) >= ALARM else count
+    return found
 
 
 def frames(found: NDArray[np.int64]) -> NDArray[np.uint8]:
     """Continuous output uint8 [n, 15] for counts [n]: %01$+0025000**CR."""
-    data = np.tile(_TEMPLATE, (len(found), 1))
-    data[found < 0, 4] = ord("-")
-    data[:, 5:12] = (np.abs(found)[:, None] // _POWERS) % 10 + ord("0")
+    data: NDArray[np.uint8] = _frames(found, _TEMPLATE)
+    return data
+
+
+@njit(cache=True)
+def _frames(found, template):  # type: ignore[no-untyped-def]
+    data = np.empty((found.size, FRAME_BYTES), np.uint8)
+    for i in range(found.size):
+        data[i] = template
+        if found[i] < 0:
+            data[i, 4] = 45
+        left = abs(found[i])
+        for k in range(11, 4, -1):
+            data[i, k] = 48 + left % 10
+            left //= 10
     return data
 
 

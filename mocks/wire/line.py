@@ -6,9 +6,23 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 Float = NDArray[np.float64]
+
+
+@njit(cache=True)
+def _leave(free, ready, size, byte_time, ends, out):  # type: ignore[no-untyped-def]
+    """When frames [n] that are ready at times [n] have left the line, free from `free` on, and each byte [n, size]."""
+    length = size * byte_time
+    latest = free
+    for i in range(ready.size):
+        latest = max(latest, ready[i] - length * i)
+        start = length * i + latest
+        for k in range(size):
+            out[i, k] = start + byte_time * (k + 1.0)
+        ends[i] = start + length
 
 
 @dataclass
@@ -27,24 +41,22 @@ class Line:
         end_k = L (k + 1) + max(free, max over j <= k of (ready_j - L j)).
         """
         count, size = frames.shape
-        length = size * self.byte_time
-        order = np.arange(count)
-        starts: Float = length * order + np.maximum(self.free, np.maximum.accumulate(ready - length * order))
-        ends: Float = starts + length
-        each: Float = self.byte_time * np.arange(1.0, size + 1)
-        self._append(frames.tobytes(), np.add.outer(starts, each).ravel())
+        ends, each = np.empty(count), np.empty((count, size))
+        _leave(self.free, ready, size, self.byte_time, ends, each)
+        self._append(frames.tobytes(), each.ravel())
         self.free = float(ends[-1])
         return ends
 
     def put(self, data: bytes, ready: float) -> None:
         """Some bytes, such as an answer."""
         start = max(self.free, ready)
-        self._append(data, start + self.byte_time * np.arange(1, len(data) + 1))
+        leaving: Float = start + self.byte_time * np.arange(1.0, len(data) + 1)
+        self._append(data, leaving)
         self.free = start + self.byte_time * len(data)
 
-    def _append(self, data: bytes, times: NDArray[np.floating]) -> None:
+    def _append(self, data: bytes, times: Float) -> None:
         self.data += data
-        self.times = np.concatenate([self.times, times])
+        self.times = np.concatenate([self.times, times]) if len(self.times) else times
 
     def take(self, until: float) -> bytes:
         """The bytes that have left by `until`."""
