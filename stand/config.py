@@ -15,6 +15,7 @@ from stand.setup import Setup, check
 from stand.setup_table import read_setup, setup_table, write_toml
 from stand.units import parse_quantity
 
+RTU_UNCERTAINTY = 0.5e-3
 DEFAULT = Path(__file__).parent / "profiles" / "stand.toml"
 
 
@@ -93,17 +94,26 @@ class _Timed(_Part):
 class DriveConfig(_Timed):
     """The drive: its profile's name, its link, and where along its travel a run rests.
 
-    latency: of a poll, by how much the answer's way is longer than the question's, halved, s.
+    latency: of a poll, by how much the answer's way is longer than the question's, halved, s; what the bytes need on
+    a serial bus not counted. latency_uncertainty: on RTU 0.5 ms where the file states none.
     """
 
     profile: str = "nanotec-cia402"
     link: Annotated[TcpLink | RtuLink, Field(discriminator="kind")] = TcpLink()
     rate: Hertz = 1000.0
+    latency_uncertainty: Second = Field(default=5e-6, ge=0)
     poll_rate: Hertz = Field(default=100.0, gt=0)
     command_rate: Hertz = Field(default=200.0, gt=0)
     rest_travel: Metre = 0.030
     homing_method: int = 0
     direction: Literal[-1, 1] = 1
+
+    @model_validator(mode="before")
+    @classmethod
+    def _slower_on_rtu(cls, given: Any) -> Any:
+        if isinstance(given, dict) and isinstance(link := given.get("link"), dict) and link.get("kind") == "rtu":
+            return {"latency_uncertainty": RTU_UNCERTAINTY, **given}
+        return given
 
 
 class GaugeConfig(_Timed):
@@ -162,13 +172,15 @@ class Stand(_Part):
 
     def with_links(self, announcement: Mapping[str, Any]) -> Stand:
         """The same stand on the ports (and calibrated latencies) that a simulated stand announces."""
-        drive = announcement["drive"]
-        if self.drive.link.kind == "rtu":
-            link: dict[str, Any] = {"port": drive["rtu"], "unit_id": drive.get("unit_id", 1)}
+        drive, latency = announcement["drive"], dict(announcement.get("latency") or {})
+        link: dict[str, Any] = {"unit_id": drive.get("unit_id", 1)}
+        if isinstance(self.drive.link, RtuLink):
+            baud = drive.get("rtu_baud", self.drive.link.baud)
+            link |= {"port": drive["rtu"], "baud": baud, "parity": "N"}  # a pseudo-terminal carries no parity
+            latency.pop("drive", None)  # announced of TCP
         else:
             host, _, port = str(drive["tcp"]).rpartition(":")
-            link = {"host": host, "port": int(port), "unit_id": drive.get("unit_id", 1)}
-        latency = announcement.get("latency") or {}
+            link |= {"host": host, "port": int(port)}
         changed: dict[str, Any] = {"drive": _relink(self.drive, link, latency.get("drive"))}
         for name in ("force_gauge", "dial_gauge"):
             gauge = announcement[name]

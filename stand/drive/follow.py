@@ -45,8 +45,9 @@ def follow(
     """Run the plan from where the drive stands; DeviceError where it faults or strays by more than 25 mm.
 
     Profile velocity with its acceleration set at every step to |dv| / dt: the drive's velocity is then the plan's,
-    joined by straight lines between steps, whatever the pace at which the link answers. Its own software limits are
-    drawn in around the plan, so that a stream that breaks off ends there at the latest.
+    joined by straight lines between steps, whatever the pace at which the link answers and the time that a command
+    needs to reach the drive. Its own software limits are drawn in around the plan, so that a stream that breaks off
+    ends there at the latest.
     """
     origin = drive.status().travel
     low, high = plan.span
@@ -72,18 +73,19 @@ def _stream(
     gain, started = drive.profile.motion.gain, drive.clock()
     on_start(started)
     velocity, error, worst, late, step = 0.0, 0.0, 0.0, 0, 0
-    before, pace = -dt, dt
+    before, pace, lead = -dt, dt, 0.0
     while (now := drive.clock() - started) < plan.duration:
         if should_stop():
             return Followed(False, worst, late, started)
         pace = max(dt, pace + 0.3 * (min(now - before, 0.05) - pace))
         before = now
-        wanted = plan.state(now + pace)[1]
+        wanted = plan.state(now + lead + pace)[1]
         quiet = wanted == 0.0 and plan.state(now)[1] == 0.0 and abs(error) < QUIET
         command = 0.0 if quiet else wanted + gain * error
         demand = _exchange(drive, command, abs(command - velocity) / pace)
-        velocity = command
-        error = plan.state(drive.clock() - started)[0] - (demand - origin)
+        velocity, looked = command, drive.link.looked - started
+        lead += 0.1 * (min(looked - now, 0.05) - lead)
+        error = plan.state(looked)[0] - (demand - origin)
         worst = max(worst, abs(error))
         if worst > STRAY:
             value = f"{error * 1e3:.1f} mm off"

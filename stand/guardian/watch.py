@@ -26,7 +26,7 @@ Order = dict[str, Any]
 
 
 class Line:
-    """The guardian's own way to the drive: `tcp` (kept open, opened anew when it fails) or a `serial` device."""
+    """The guardian's own way to the drive: `tcp` or a `serial` device, kept open, opened anew when it fails."""
 
     def __init__(self, order: Order) -> None:
         self.kind: str = order["kind"]
@@ -59,15 +59,30 @@ class Line:
         try:
             self.open()
             os.write(self.handle, telegram)
-            ready = select.select([self.handle], [], [], timeout)[0]
-            answer = os.read(self.handle, 512) if ready else b""
+            if self._answer(timeout) == telegram[self._function]:
+                return True
         except OSError:
-            answer = b""
-        function = 7 if self.kind == "tcp" else 1
-        if len(answer) > function and answer[function] == telegram[function]:
-            return True
+            pass
         self.close()
         return False
+
+    @property
+    def _function(self) -> int:
+        """Where in a telegram the function code stands."""
+        return 7 if self.kind == "tcp" else 1
+
+    def _answer(self, timeout: float) -> int:
+        """The answer's function code, -1 for silence; a serial line hands over byte by byte."""
+        answer, end = b"", time.monotonic() + timeout
+        while len(answer) <= self._function:
+            left = end - time.monotonic()
+            if left <= 0 or not select.select([self.handle], [], [], left)[0]:
+                return -1
+            part = os.read(self.handle, 512)
+            if not part:
+                return -1
+            answer += part
+        return answer[self._function]
 
 
 def stop_drive(line: Line, telegrams: list[bytes], give_up: float = GIVE_UP) -> tuple[float, float | None]:
@@ -119,8 +134,7 @@ def main(order: Order) -> None:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     line = Line(order)
-    if line.kind == "tcp":
-        line.open()
+    line.open()  # and kept open: a serial port whose last user is gone forgets its settings
     os.write(1, b"ready\n")
     why, armed = listen(order["limit"])
     if armed:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from stand.config import GaugeConfig, Stand
+from stand.config import GaugeConfig, RtuLink, Stand, TcpLink
 from stand.recorder import StreamSpec, Wire
 
 RING_REGISTERS = 64
@@ -33,8 +33,13 @@ def _spec(stand: Stand, name: str, identity: dict[str, str]) -> StreamSpec:
             bytes_per_sample=LONGEST_FRAME, texts=texts, numbers=numbers,
         )  # fmt: skip
     texts["identity"]["profile"] = instrument.profile
-    sampling = f"read from the drive's counted ring of {instrument.rate:g} Hz; between its samples interpolated"
+    sampling = f"read from the drive's counted ring of {instrument.rate:g} Hz over {_wire(instrument.link)}; "
+    sampling += "between its samples interpolated"
     return StreamSpec(
         name, Wire.REGISTERS, UNITS[name], instrument.rate, sampling, width=RING_REGISTERS,
         reads_per_second=4 * instrument.poll_rate, texts=texts, numbers={"calibration": calibration},
     )  # fmt: skip
+
+
+def _wire(link: TcpLink | RtuLink) -> str:
+    return "Modbus TCP" if isinstance(link, TcpLink) else f"Modbus RTU at {link.baud} baud"

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 
 from stand.guardian.client import StopOrder
 from stand.guardian.watch import Line, stop_drive
+from stand.transport.turns import turns_of
 
 SLOWEST = 0.1
+#: s that a question and its answer take on a slow bus; a drive that is silent for longer is not waited for
+LONGEST_QUESTION = 0.05
 
 
 class QuickStop:
@@ -29,8 +33,7 @@ class QuickStop:
 
     def start(self) -> None:
         """Connect; OSError where the drive accepts no further connection."""
-        if self._order.kind == "tcp":
-            self._line.open()
+        self._line.open()
         self._thread.start()
 
     def trigger(self) -> None:
@@ -45,10 +48,17 @@ class QuickStop:
             self._thread.join(1.0)
         self._line.close()
 
+    def _turn(self) -> AbstractContextManager[None]:
+        """On a serial bus, the next turn: after the question under way, before all others."""
+        if self._order.kind == "tcp":
+            return nullcontext()
+        return turns_of(self._order.host).take(urgent=True, timeout=LONGEST_QUESTION)
+
     def _serve(self) -> None:
         self._wanted.wait()
         while not self._leave.is_set():
-            first, answered = stop_drive(self._line, list(self._order.telegrams))
+            with self._turn():
+                first, answered = stop_drive(self._line, list(self._order.telegrams))
             if self.sent_at is None:
                 self.sent_at = first
                 self.on_sent(first)

@@ -44,6 +44,11 @@ class ModbusLink:
             self._received = self._clock() - self._byte * len(data)
         return data
 
+    @property
+    def looked(self) -> float:
+        """When the device looked at the last question, about: the middle of its times, s."""
+        return (self._sent + self._received) / 2
+
     def open(self) -> None:
         """Connect; DeviceError where nothing answers there. A link that failed opens anew at the next request."""
         with self._turns.take():
