@@ -125,7 +125,7 @@ class Watchdog(_Part):
 
 
 class MotionTable(_Part):
-    """Points that the drive runs through by itself."""
+    """Points that the drive could run through by itself, as far as they are known; motions are streamed."""
 
     kind: Literal["none", "points", "kinematic"] = "none"
     base: int = 0
@@ -165,9 +165,8 @@ class Homing(_Part):
 
 
 class Motion(_Part):
-    """How a planned motion is executed; gain: feedback of position on the streamed velocity, 1/s."""
+    """A planned motion is executed as a stream of velocities; gain: feedback of position on them, 1/s."""
 
-    method: Literal["velocity-stream", "set-points"] = "velocity-stream"
     gain: float = 15.0
 
 
