@@ -6,7 +6,7 @@ import struct
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from pymodbus.pdu import ExceptionResponse
 from pymodbus.pdu.register_message import WriteSingleRegisterResponse
@@ -62,6 +62,7 @@ def test_the_published_default_image_is_unpacked_where_the_manual_puts_it() -> N
     assert values["digital_inputs"] == 7
 
 
+@settings(deadline=None)  # a busy machine
 @given(
     position=st.integers(-(2**31), 2**31 - 1),
     mode=st.integers(-128, 127),
