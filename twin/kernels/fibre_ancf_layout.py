@@ -9,8 +9,8 @@ from twin.kernels.fibre_layout import RIG
 
 Float = NDArray[np.float64]
 
-ELEMENTS, POINTS, EI, CONTACT, SHEAR, STEP, LENGTHS, SHAPES, EVEN = range(RIG, RIG + 9)
-OWN = 9
+ELEMENTS, POINTS, EI, CONTACT, SHEAR, STEP, LENGTHS, SHAPES, EVEN, ORDER = range(RIG, RIG + 10)
+OWN = 10
 GAUSS = 3  # axial points of an element: exact for the mean of its quartic strain
 BAND = 7
 

@@ -2,7 +2,9 @@
 
 from twin.kernels.fibre_layout import RIG
 
-COUNT, POINT_MASS, SEGMENT, STIFFNESS, ROUND, RIM_STIFFNESS, BOND, ONSET, CAPSTAN, STEP, RIM_LOSS = range(RIG, RIG + 11)
-OWN = 11
+COUNT, POINT_MASS, SEGMENT, STIFFNESS, ROUND, RIM_STIFFNESS, BOND, ONSET, CAPSTAN, STEP, RIM_LOSS, ORDER = range(
+    RIG, RIG + 12
+)
+OWN = 12
 BAND = 3
 HYSTERESIS = 5e-5  # m, of the handover between segments

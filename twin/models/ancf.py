@@ -11,6 +11,8 @@ from stand.setup import Setup, System
 from twin.friction import packed
 from twin.kernels import fibre_ancf_layout as layout
 from twin.kernels.fibre_layout import LENGTH, RADIUS, RIG, pack_rig
+from twin.kernels.fibre_memory import memory
+from twin.kernels.fibre_tableau import order_of
 from twin.model import FibreModel, Float, Start
 from twin.models._mesh import mesh, rest, trimmed
 from twin.models._place import Placed, place
@@ -27,17 +29,31 @@ _PARAMETERS = (
     Parameter("step", "s", 5e-4, (1e-6, 1e-2), None, "longest step of the integrator"),
     Parameter("fine_elements", "-", 14.0, (2.0, 2000.0), None, "how many of them cover the arc and the stroke"),
     Parameter("evenness", "-", 1e-4, (0.0, 1.0), None, "share of EA against uneven stretch within an element"),
+    Parameter("order", "-", 2.0, (2.0, 4.0), None, "of the integrator: 2, or 4 where accuracy counts"),
 )
 _POINTS = 12  # contact points of an element
 
 
 def _constants(setup: Setup, parameters: Mapping[str, float]) -> Float:
-    elements, bending, friction, contact, bristle, stroke, drag, step, fine, evenness = packed(_PARAMETERS, parameters)
+    elements, bending, friction, contact, bristle, stroke, drag, step, fine, evenness, order = packed(
+        _PARAMETERS, parameters
+    )
     count = round(elements)
     extra = count + 5 * layout.GAUSS + 4 * _POINTS
     c = pack_rig(setup, layout.OWN + extra, sliding=friction, drag=drag)
     lengths = RIG + layout.OWN
-    c[RIG:lengths] = [count, _POINTS, bending, contact, bristle, step, lengths, lengths + count, evenness]
+    c[RIG:lengths] = [
+        count,
+        _POINTS,
+        bending,
+        contact,
+        bristle,
+        step,
+        lengths,
+        lengths + count,
+        evenness,
+        order_of(order),
+    ]
     c[lengths : lengths + count] = mesh(c, setup, stroke, count, round(fine))
     c[lengths + count : lengths + extra] = layout.tables(_POINTS)
     return trimmed(_advance, lambda loose: _laid(loose, Start()), c, lengths, layout.STEP) if c[RADIUS] > 0.0 else c
@@ -67,15 +83,18 @@ def _laid(c: Float, start: Start) -> Float:
     n, points = 4 * int(c[layout.ELEMENTS]) + 2, int(c[layout.ELEMENTS]) * _POINTS
     placed, slopes, _ = _placed(c, start)
     q = _pack(c, start.u, placed.points, slopes, placed.s)
-    return np.concatenate([[q[0], 0.0], q[1:], np.zeros(n - 1 + n + points)])
+    return np.concatenate(
+        [[q[0], 0.0], q[1:], np.zeros(n - 1 + n + points + memory(n, layout.BAND, points, int(c[layout.ORDER])))]
+    )
 
 
 def _start(c: Float, start: Start) -> Float:
-    n, state = 4 * int(c[layout.ELEMENTS]) + 2, _laid(c, start)
+    n, points, state = 4 * int(c[layout.ELEMENTS]) + 2, int(c[layout.ELEMENTS]) * _POINTS, _laid(c, start)
     rest(_advance, c, state, start, layout.STEP)
     placed, _, rates = _placed(c, start)
     v = _pack(c, start.v, placed.velocities, rates, placed.rim_speed)
     state[1], state[1 + n : 2 * n], state[2 * n : 3 * n] = v[0], v[1:], 0.0
+    state[-memory(n, layout.BAND, points, int(c[layout.ORDER])) :] = 0.0
     return state
 
 
@@ -84,7 +103,7 @@ def _advance(c: Float, state: Float, drive: Float, dt: float, out: Float) -> int
 
     count = int(c[layout.ELEMENTS])
     steps = max(1, math.ceil(dt / c[layout.STEP] - 1e-6))
-    size = np.array([4 * count + 2, layout.BAND, count * _POINTS, steps], dtype=np.int64)
+    size = np.array([4 * count + 2, layout.BAND, count * _POINTS, steps, int(c[layout.ORDER])], dtype=np.int64)
     return int(fibre_step.advance(fibre_ancf.assemble, fibre_ancf.gauge, size, _norm(c), c, state, drive, dt, out))
 
 

@@ -11,6 +11,7 @@ from stand.setup import Setup, System
 from twin.friction import packed
 from twin.kernels import fibre_segment_layout as layout
 from twin.kernels.fibre_layout import LENGTH, RADIUS, RIG, pack_rig
+from twin.kernels.fibre_memory import memory
 from twin.model import FibreModel, Float, Start
 from twin.models._mesh import mesh, rest, trimmed
 from twin.models._place import Placed, place
@@ -50,16 +51,24 @@ def _placed(c: Float, start: Start) -> tuple[Placed, Placed]:
 
 def _laid(c: Float, start: Start) -> Float:
     """The state of a fibre laid on its path, everything at rest."""
-    count = int(c[layout.SEGMENTS])
+    count, n = int(c[layout.SEGMENTS]), 3 * int(c[layout.SEGMENTS]) + 2
     ends, middles = _placed(c, start)
     d = np.diff(ends.points, axis=0)
     angle = np.unwrap(np.arctan2(d[:, 1], d[:, 0]))
     bodies = np.column_stack([middles.points, angle]).reshape(-1)
-    return np.concatenate([[start.u, 0.0], bodies, [middles.s], np.zeros(2 * (3 * count + 2) - 1 + count * _POINTS)])
+    return np.concatenate(
+        [
+            [start.u, 0.0],
+            bodies,
+            [middles.s],
+            np.zeros(2 * n - 1 + count * _POINTS + memory(n, layout.BAND, count * _POINTS, 2)),
+        ]
+    )
 
 
 def _start(c: Float, start: Start) -> Float:
-    n, state = 3 * int(c[layout.SEGMENTS]) + 2, _laid(c, start)
+    count, state = int(c[layout.SEGMENTS]), _laid(c, start)
+    n = 3 * count + 2
     rest(_advance, c, state, start, layout.STEP)
     ends, middles = _placed(c, start)
     d, e = np.diff(ends.points, axis=0), np.diff(ends.velocities, axis=0)
@@ -67,6 +76,7 @@ def _start(c: Float, start: Start) -> Float:
     speeds = np.column_stack([middles.velocities, turn]).reshape(-1)
     state[1], state[1 + n : 2 * n] = start.v, np.concatenate([speeds, [middles.rim_speed]])
     state[2 * n : 3 * n] = 0.0
+    state[-memory(n, layout.BAND, count * _POINTS, 2) :] = 0.0
     return state
 
 
@@ -75,7 +85,7 @@ def _advance(c: Float, state: Float, drive: Float, dt: float, out: Float) -> int
 
     count, at = int(c[layout.SEGMENTS]), int(c[layout.LENGTHS])
     steps = max(1, math.ceil(dt / c[layout.STEP] - 1e-6))
-    size = np.array([3 * count + 2, layout.BAND, count * _POINTS, steps], dtype=np.int64)
+    size = np.array([3 * count + 2, layout.BAND, count * _POINTS, steps, 2], dtype=np.int64)
     ones = np.ones(count)
     norm = np.concatenate([[1.0], np.column_stack([ones, ones, c[at : at + count] / 4]).reshape(-1), [1.0]])
     return int(fibre_step.advance(fibre_segment.assemble, fibre_segment.gauge, size, norm, c, state, drive, dt, out))

@@ -29,6 +29,7 @@ from twin.kernels.fibre_layout import (
     WTY,
     pack_rig,
 )
+from twin.kernels.fibre_memory import memory
 from twin.model import FibreModel, Float, Start
 from twin.parameter import Parameter, Source
 
@@ -55,7 +56,7 @@ def _start(c: Float, start: Start) -> Float:
     speed = start.v * (c[ALONG] - start.u) / near
     s = _rim(c, start, near, far, (start.w - speed) / (first + second)) if pulley else 0.0
     rim = speed + (start.w - speed) * first / (first + second)
-    state = np.zeros(3 * _N)
+    state = np.zeros(3 * _N + memory(_N, layout.BAND, 0, 2))
     state[0], state[1], state[_N] = start.u, start.v, s
     state[2 * _N - 1] = (start.rim_speed if start.rim_speed is not None else rim) if pulley else 0.0
     state[2 + layout.AXIAL] = _bow(c, near, first - s, np.array([c[WTX], c[WTY]]))
@@ -89,7 +90,7 @@ def _advance(c: Float, state: Float, drive: Float, dt: float, out: Float) -> int
     from twin.kernels import fibre_ritz, fibre_step
 
     steps = max(1, math.ceil(dt / c[layout.STEP] - 1e-6))
-    size = np.array([_N, layout.BAND, 0, steps], dtype=np.int64)
+    size = np.array([_N, layout.BAND, 0, steps, 2], dtype=np.int64)
     return int(fibre_step.advance(fibre_ritz.assemble, fibre_ritz.gauge, size, np.ones(_N), c, state, drive, dt, out))
 
 
