@@ -15,7 +15,7 @@ def judge(truth: dict[str, Any], verdict: dict[str, Any], seconds: float) -> dic
         "number": truth["number"],
         "kind": truth["kind"],
         "hidden": hidden,
-        "wanted": [h["wanted_strength"] for h in truth["hidden"]],
+        "wanted": [h["strength"] for h in truth["hidden"]],
         "named": [c["name"] for c in causes],
         "rivals": [c["indistinguishable_from"] for c in causes],
         "probability": [c["probability"] for c in causes],

@@ -11,7 +11,7 @@ from typing import Any
 os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 
 from mocks.battery.draw import Case
-from mocks.battery.store import answer, forget, write
+from mocks.battery.store import forget, read_answer, write
 from tests.blind.judge import judge
 
 
@@ -30,7 +30,7 @@ def diagnose_case(case: Case, out: Path, keep: bool = False) -> dict[str, Any]:
     begin = time.perf_counter()
     try:
         verdict = diagnose([read_recording(f) for f in files])
-        content = judge(answer(case), verdict.to_json(), time.perf_counter() - begin)
+        content = judge(read_answer(place), verdict.to_json(), time.perf_counter() - begin)
         content["verdict"] = verdict.to_json()
     except Exception as error:  # a crash is a result, too: the table counts it
         content = {"number": case.number, "kind": case.kind, "hidden": list(case.hidden), "error": repr(error)}

@@ -39,7 +39,7 @@ class Composition:
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Base values, runs' offsets, then the causes' parameters."""
         freed = frozenset(c.base for c in self.causes if c.base is not None)
-        found = base(self.setups, freed)
+        found = base(self.setups, freed, frozenset(c.name for c in self.causes))
         if self.setups[0].system is System.WFPD:
             found += offsets(len(self.setups), any(c.rest_free for c in self.causes))
         for cause in self.causes:

@@ -19,6 +19,11 @@ TIMING = 4e-5
 OFFSET = 4e-6
 LOST_OFFSET = 6e-4
 NO_FRICTION = 1e-3
+#: causes beside which a channel's own small shift in time can't be told, and is left at none
+TIMED = {
+    "late_u": frozenset({"dial-gauge-delay", "dial-gauge-lag", "drive-delay"}),
+    "late_F": frozenset({"force-gauge-delay", "force-gauge-lag"}),
+}
 
 
 @dataclass(frozen=True)
@@ -41,8 +46,12 @@ class Coordinate:
         return self.origin + self.scale * z
 
 
-def base(setups: Sequence[Setup], freed: frozenset[str] = frozenset()) -> tuple[Coordinate, ...]:
-    """The base values that calibration may move, those in `freed` without prior or bound."""
+def base(
+    setups: Sequence[Setup], freed: frozenset[str] = frozenset(), named: frozenset[str] = frozenset()
+) -> tuple[Coordinate, ...]:
+    """The base values that calibration may move, those in `freed` without prior or bound; `named`: the causes in the
+    model.
+    """
     setup = setups[0]
     names = {
         System.WFPD: (
@@ -69,6 +78,7 @@ def base(setups: Sequence[Setup], freed: frozenset[str] = frozenset()) -> tuple[
         heavy = max(setups, key=lambda s: s.added_mass)
         if heavy.sigma("added_mass") > 1e-6:
             found.append(Coordinate("added_mass", "base", heavy.sigma("added_mass"), 0.0, 1.0, -WITHIN, WITHIN))
+    found = [c for c in found if not named & TIMED.get(c.name, frozenset())]
     free = {"prior": math.inf, "low": -math.inf, "high": math.inf}
     return tuple(replace(c, **free) if c.name in freed else c for c in found)  # type: ignore[arg-type]
 

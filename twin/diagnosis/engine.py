@@ -12,13 +12,15 @@ from stand.errors import InputError
 from stand.recording import Recording
 from stand.setup import System
 from twin.causes._kind import Cause
+from twin.diagnosis import clipped
 from twin.diagnosis.audit import audit_all
+from twin.diagnosis.composition import Composition
 from twin.diagnosis.fit import Fitted, fit
 from twin.diagnosis.following import following
 from twin.diagnosis.found import Evidence, Step
 from twin.diagnosis.hum import find
 from twin.diagnosis.problem import Problem
-from twin.diagnosis.rivals import standings
+from twin.diagnosis.rivals import Standing, standings
 from twin.diagnosis.run import choose, prepare
 from twin.diagnosis.search import Search, backward, calibrate, error, forward
 from twin.diagnosis.tell import tell
@@ -56,7 +58,7 @@ def diagnose(
     progress("audit", 0.0)
     good, bad, notes = audit_all(recordings, skipped)
     good, lines = find(good)
-    runs = tuple(prepare(r) for r in good)
+    runs, limits = clipped.find([prepare(r) for r in good])
     problem = Problem(runs, choose(runs, options.windows))
     if len(problem.windows) < 4:
         remedy = "Record motion that leaves the fibre taut now and then, for longer"
@@ -64,7 +66,7 @@ def diagnose(
     catalogue = known(runs[0].setup.system, options.causes)
     progress("calibrating", 0.15)
     trained = problem.part(_searched(problem, options.searched))
-    able = [c for c in catalogue if c.how != "line"]
+    able = [c for c in catalogue if c.how != "line" and c.name not in {limit.cause for limit in limits}]
     search = forward(trained, calibrate(trained), able, progress)
     progress("checking", 0.75)
     backward(search)
@@ -78,12 +80,25 @@ def diagnose(
     elif beyond is not None and beyond.fitted is search.base:  # the catalogue's causes only stood in for it
         search.current, ranks, search.ladder = search.base, [], search.ladder[:1]
     progress("confirming on held-out windows", 0.85)
+    for limit in limits:
+        _add(search, limit, catalogue)
+        ranks.append(Standing(limit.cause, {}, 0.98, (), {}))
     found = confirm(problem, search, notes)
     order = following(search, ranks)
     progress("writing the verdict", 0.95)
-    verdict = tell(good, bad, search, found, catalogue, ranks, lines, beyond, order)
+    verdict = tell(good, bad, search, found, catalogue, ranks, lines, limits, beyond, order)
     progress("done", 1.0)
     return verdict
+
+
+def _add(search: Search, limit: clipped.Clip, catalogue: Sequence[Cause]) -> None:
+    """Puts a limit that was read off the records into the model; the windows have nothing beyond it."""
+    cause = next(c for c in catalogue if c.name == limit.cause)
+    current = search.current
+    model = Composition(current.model.setups, (*current.model.causes, cause))
+    z = model.put(current.model.carry(current.z, model), cause, {"level": limit.level})
+    search.current = Fitted(model, z, current.starts, current.residual, current.cost)
+    search.ladder.append(search.current)
 
 
 def _part_of(fitted: Fitted, whole: Fitted) -> bool:

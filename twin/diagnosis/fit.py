@@ -196,7 +196,7 @@ def fit(
     free = np.ones(len(z), bool) if fixed is None else ~fixed
     left = residual(problem, model, z, starts)
     fitted = Fitted(model, z, starts, left, 0.0)
-    damping, reduced, linear = 1e-3, None, None
+    damping, reduced, linear = 1e-6, None, None
     for turn in range(iterations):
         spread = scale(problem, fitted.residual)
         cost = loss(fitted.residual, spread) + prior_cost(model, fitted.z, fitted.starts)
@@ -212,9 +212,9 @@ def fit(
             new = loss(left, spread) + prior_cost(model, z_new, starts_new)
             if new < cost:
                 better = replace(fitted, z=z_new, starts=starts_new, residual=left, cost=new)
-                damping = max(damping / 8, 1e-6)
+                damping = max(damping / 30, 1e-8)
                 break
-            damping *= 10
+            damping *= 100
         if better is None:
             break
         gained = (cost - better.cost) / max(cost, 1e-9)

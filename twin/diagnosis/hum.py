@@ -15,6 +15,7 @@ Float = NDArray[np.float64]
 LOWEST, HIGHEST = 35.0, 420.0
 SURE = 45.0
 REST = 0.9
+SIGNALS = ("fibre_force", "weight_position", "drive_position")
 
 
 @dataclass(frozen=True)
@@ -31,12 +32,9 @@ class Hum:
 
 def find(recordings: Sequence[Recording]) -> tuple[list[Recording], list[Hum]]:
     """The recordings without their lines, and the lines: each stands at rest in one signal of every run."""
-    found = []
-    for signal in ("fibre_force", "weight_position", "drive_position"):
-        if all(signal in r.channels for r in recordings):
-            line = _line(recordings, signal)
-            if line is not None:
-                found.append(line)
+    signals = [s for s in SIGNALS if all(s in r.channels for r in recordings)]
+    power = _powers(recordings, signals, np.arange(LOWEST, HIGHEST, 0.5))
+    found = [h for s in signals if (h := _line(recordings, s, power[s])) is not None]
     alone = [h for h in found if not any(_answers(h, other) for other in found)]
     cleaned = list(recordings)
     for line in alone:
@@ -61,16 +59,17 @@ def _rest(recording: Recording) -> NDArray[np.bool_]:
     return mask
 
 
-def _line(recordings: Sequence[Recording], signal: str) -> Hum | None:
-    grid = np.arange(LOWEST, HIGHEST, 0.5)
-    power, sigma = np.zeros(len(grid)), [noise(r.channels[signal]) for r in recordings]
-    for recording, s in zip(recordings, sigma, strict=True):
-        power += _power(recording, signal, grid) / max(s, 1e-12) ** 2 / len(recordings)
+def _line(recordings: Sequence[Recording], signal: str, powers: Sequence[Float]) -> Hum | None:
+    grid, sigma = np.arange(LOWEST, HIGHEST, 0.5), [noise(r.channels[signal]) for r in recordings]
+    power = np.zeros(len(grid))
+    for own, s in zip(powers, sigma, strict=True):
+        power += own / max(s, 1e-12) ** 2 / len(recordings)
     if power.max() < SURE / len(recordings) + 8.0 or np.sum(power > 0.3 * power.max()) > 9:
         return None
     centre = float(grid[int(np.argmax(power))])
     fine = np.arange(centre - 0.8, centre + 0.8, 0.01)
-    total = np.sum([_power(r, signal, fine) / s**2 for r, s in zip(recordings, sigma, strict=True)], axis=0)
+    near = _powers(recordings, [signal], fine)[signal]
+    total = np.sum([own / s**2 for own, s in zip(near, sigma, strict=True)], axis=0)
     frequency = float(fine[int(np.argmax(total))])
     amplitudes = [float(np.hypot(*_amplitude(r, signal, frequency))) for r in recordings]
     amplitude, count = float(np.median(amplitudes)), float(np.mean([_rest(r).sum() for r in recordings]))
@@ -82,13 +81,22 @@ def _line(recordings: Sequence[Recording], signal: str) -> Hum | None:
     return Hum(signal, frequency, float(spread), amplitude, float(std), amplitude / s / np.sqrt(2.0))
 
 
-def _power(recording: Recording, signal: str, frequencies: Float) -> Float:
-    """|sum of signal e^-iwt|^2 / n over the rest, each end without its trend."""
-    mask = _rest(recording)
-    time, values = recording.time[mask], _level(recording.channels[signal], mask)
-    phase = np.exp(-2j * np.pi * np.outer(frequencies, time))
-    power: Float = np.abs(phase @ values) ** 2 / len(values)
-    return power
+def _powers(recordings: Sequence[Recording], signals: Sequence[str], frequencies: Float) -> dict[str, list[Float]]:
+    """|sum of signal e^-iwt|^2 / n of each signal over each run's rest, each end without its trend."""
+    found: dict[str, list[Float]] = {s: [] for s in signals}
+    known: dict[bytes, Float] = {}
+    for recording in recordings:
+        mask = _rest(recording)
+        time = recording.time[mask] - recording.time[0]
+        key = np.round(time, 9).tobytes()
+        if key not in known:
+            angle = -2 * np.pi * np.outer(frequencies, time)
+            known = {key: np.stack([np.cos(angle), np.sin(angle)])}
+        values = np.column_stack([_level(recording.channels[s], mask) for s in signals])
+        power = np.sum((known[key] @ values) ** 2, axis=0) / len(values)
+        for k, signal in enumerate(signals):
+            found[signal].append(power[:, k])
+    return found
 
 
 def _level(values: Float, mask: NDArray[np.bool_]) -> Float:

@@ -17,6 +17,7 @@ REST = 0.4
 BURN = 24
 LENGTH = 184
 HALF = 12
+CLEAR = 20  # samples about a start that must be good
 
 
 @dataclass(frozen=True)
@@ -138,6 +139,7 @@ def _smooth_starts(run: Run) -> Index:
         return np.zeros(0, np.int64)
     _, _, left_u = polynomial(run.raw_u, places, 16, 4, run.dt)
     good = (left_u < 1.6 * run.noise_u) & (run.u.value[places] < _ceiling(run))
+    good &= ~(np.convolve(run.bad.any(axis=1), np.ones(2 * CLEAR + 1), "same") > 0.5)[places]
     if run.setup.system is System.WFPD:
         value, _, left = polynomial(run.raw_F, places, 16, 4, run.dt)
         low = np.min(np.lib.stride_tricks.sliding_window_view(run.F.value, 33)[places - 16], axis=1)

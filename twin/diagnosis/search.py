@@ -26,6 +26,8 @@ NEEDED = 0.012
 NEEDED_MORE = 0.02
 NOISE = 1.12
 LARGE = 25.0
+WILD = 25.0
+FEW = 2
 #: first parameters that say where an effect begins, not how large it is
 REACHED = frozenset({"level", "position", "friction"})
 
@@ -44,14 +46,18 @@ class Search:
 
 
 def error(problem: Problem, left: Float) -> Float:
-    """Squared short-window error in the sensors' noise, per channel [2]: the mean over windows, the wildest tenth
-    capped.
+    """Squared short-window error in the sensors' noise, per channel [2]: the mean over the windows that have the
+    channel, the wildest tenth capped where it passes WILD.
     """
     squares = (left / problem.sigma[:, None, :]) ** 2
-    use = problem.windows.use
-    each = squares.sum(axis=1) / np.maximum(use.sum(axis=1), 1)
-    cap = np.percentile(each, 90, axis=0)
-    mean: Float = np.minimum(each, cap).mean(axis=0)
+    count = problem.windows.use.sum(axis=1)
+    each = squares.sum(axis=1) / np.maximum(count, 1)
+    has = count > 0
+    mean = np.zeros(2)
+    for c in range(2):
+        mine = each[has[:, c], c]
+        if len(mine):
+            mean[c] = np.minimum(mine, max(float(np.percentile(mine, 90)), WILD)).mean()
     return mean
 
 
@@ -178,10 +184,13 @@ def forward(problem: Problem, base: Fitted, causes: Sequence[Cause], progress: C
 
 
 def _direct(problem: Problem, fitted: Fitted, causes: Sequence[Cause]) -> list[Scored]:
-    """The direct screen on a third of the windows, where something large is wrong."""
-    if error(problem, fitted.residual).max() < LARGE:
+    """The direct screen where something large is wrong: on the windows that miss most and on others, evenly."""
+    squares = (fitted.residual / problem.sigma[:, None, :]) ** 2
+    each = (squares.sum(axis=1) / np.maximum(problem.windows.use.sum(axis=1), 1)).max(axis=1)
+    if error(problem, fitted.residual).max() < LARGE and np.sum(each > LARGE) < FEW:
         return []
-    few = problem.part(np.arange(0, len(problem.windows), 3))
+    worst = np.argsort(-each)[: len(each) // 6]
+    few = problem.part(np.union1d(worst, np.arange(0, len(each), 5)))
     z = fitted.z if fitted.model.causes else fitted.model.zero()
     return screen(few, fitted.model, z, causes)[:SHORT_LIST]
 

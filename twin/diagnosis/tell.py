@@ -12,6 +12,7 @@ from stand.recording import Recording
 from stand.setup import SCALARS, System
 from stand.units import conversion
 from twin.causes._kind import Cause
+from twin.diagnosis.clipped import Clip
 from twin.diagnosis.findings import findings
 from twin.diagnosis.fit import Fitted
 from twin.diagnosis.found import Evidence
@@ -37,12 +38,17 @@ def tell(
     catalogue: Sequence[Cause],
     ranks: Sequence[Standing],
     lines: Sequence[Hum],
+    limits: Sequence[Clip],
     beyond: Unknown | None,
     order: Json | None,
 ) -> Verdict:
     """The verdict from what the search found and the confirmation measured."""
     spread, _ = covariance(found.problem, found.final)
     causes = [_cause(found, search, c, spread, r) for c, r in zip(_named(found.final), ranks, strict=True)]
+    for cause in causes:
+        for limit in limits:
+            if cause["name"] == limit.cause:
+                _limited(cause, limit)
     causes += [_hum(line) for line in lines]
     data: Json = {
         "baseline": {"runs": [_baseline(r) for r in recordings], "skipped": skipped},
@@ -142,6 +148,17 @@ def _cause(found: Evidence, search: Search, cause: Cause, spread: Any, rank: Sta
         "strength": strength,
         "evidence": [_sentence(cause, parameters, strength)],
     }
+
+
+def _limited(cause: Json, limit: Clip) -> None:
+    """A limit that was read off the records."""
+    told = cause["parameters"]["level"]
+    told["std"] = limit.std
+    cause["strength"] = limit.strength
+    cause["evidence"] = [
+        f"{limit.flats} flat tops with steep ends stand at one highest level ({limit.cause}): level "
+        f"{told['value']:.4g} +- {told['std']:.2g} {told['units']}; what lies there was not used"
+    ]
 
 
 def _strength(search: Search, cause: Cause) -> float:
