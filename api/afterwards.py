@@ -12,6 +12,7 @@ from typing import Any
 from api.runs import beside
 from stand.errors import StandError
 from stand.recording import read_recording
+from stand.targets import check_target
 
 Tell = Callable[[str, float | None], None]
 
@@ -27,6 +28,7 @@ def compare_run(
     from twin.report import comparison_page
 
     tell("reading", None)
+    _check_targets(json_file, page)
     run = read_recording(recording)
     comparison = compare(run, models=tuple(models), progress=tell)
     json_file, page = json_file or beside(recording, "comparison"), page or beside(recording, "comparison-page")
@@ -46,6 +48,7 @@ def diagnose_runs(
     """
     from twin.diagnosis import diagnose
 
+    _check_targets(json_file, page)
     runs, skipped = [], []
     for path in recordings:
         try:
@@ -59,6 +62,13 @@ def diagnose_runs(
     tell("writing the verdict", None)
     written = verdict.write(json_file, page if _has_page() else None)
     return {"json": str(json_file), "page": str(page) if _has_page() else None, "verdict": written.to_json()}
+
+
+def _check_targets(json_file: Path | None, page: Path | None) -> None:
+    """Before any computing: where the results shall go must be a place for them."""
+    for path, option in ((json_file, "--json"), (page, "--page")):
+        if path is not None:
+            check_target(path, option)
 
 
 def _has_page() -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -85,7 +85,19 @@ def check_stand(path: Path) -> list[Check]:
         answered = status(rig)
     except StandError as error:
         return [Check("stand", "bad", str(error))]
-    return [Check(name, "ok", str(answered.get(name, "answers"))) for name in rig.instruments]
+    return [_device(name, answered.get(name)) for name in rig.instruments]
+
+
+def _device(name: str, answered: object) -> Check:
+    """A device's own words, or why it can't be reached."""
+    told = dict(answered) if isinstance(answered, Mapping) else {"state": "silent"}
+    state = str(told.pop("state", ""))
+    if "problem" in told:
+        return Check(name, "bad", str(told["problem"]))
+    text = ", ".join(
+        f"{key} {value:.6g}" if isinstance(value, float) else f"{key} {value}" for key, value in told.items()
+    )
+    return Check(name, "ok" if state == "ok" else "bad", f"{state}: {text}")
 
 
 def check_recording(path: Path) -> list[Check]:

@@ -91,7 +91,8 @@ class Order(BaseModel):
         if value is None:
             raise InputError("missing", where=name, remedy="State it, or name a situation")
         if not value > 0 or value == float("inf"):
-            raise InputError("must be positive", where=name, value=value)
+            unit = {"frequency": "Hz", "amplitude": "m", "ramp": "s"}[name]
+            raise InputError("must be positive", where=name, value=value, remedy=f"Give it in {unit}, above 0")
         return float(value)
 
     def _cycles(self, frequency: float, base: Situation | None) -> float:
@@ -106,7 +107,8 @@ class Order(BaseModel):
         if cycles is None:
             raise InputError("missing", where="cycles", remedy="State cycles or a duration")
         if cycles < 1 or cycles != int(cycles):
-            raise InputError("must be a whole number, 1 or more", where="cycles", value=cycles)
+            remedy = "State whole cycles"
+            raise InputError("must be a whole number, 1 or more", where="cycles", value=cycles, remedy=remedy)
         return float(cycles)
 
 

@@ -7,15 +7,17 @@ import os
 import socket
 import subprocess
 import sys
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import IO, Any
 
-from stand.errors import DeviceError
+from stand.errors import DeviceError, InputError, StandError
 
-READY_WITHIN = 30.0
+#: exit code of a program that was told something it can't use
+BAD_INPUT = 2
 
 
 @dataclass
@@ -33,24 +35,27 @@ class SimulatedStand:
 
     def __enter__(self) -> SimulatedStand:
         command = [sys.executable, "-m", "mocks", *self.arguments, "--parent", str(os.getpid())]
-        errors = self.log.open("w") if self.log else subprocess.DEVNULL
+        errors = self.log.open("w+") if self.log else tempfile.TemporaryFile("w+")
         self._process = subprocess.Popen(
             command, stdout=subprocess.PIPE, stderr=errors, text=True, start_new_session=True
         )
         assert self._process.stdout is not None
         line = self._process.stdout.readline()
         if not line:
-            raise self._failed()
+            raise self._failed(errors)
+        errors.close()
         self.announcement = json.loads(line)
         return self
 
-    def _failed(self) -> DeviceError:
+    def _failed(self, errors: IO[str]) -> StandError:
         assert self._process is not None
         code = self._process.wait()
-        remedy = (
-            self.log.read_text().strip()[-600:] if self.log else f"Run `python -m mocks {' '.join(self.arguments)}`"
+        errors.seek(0)
+        told = errors.read().strip().rpartition("error: ")[2][:1200]
+        kind = InputError if code == BAD_INPUT else DeviceError
+        return kind(
+            "the simulated stand did not start", where="simulated stand", remedy=told or f"It ended with {code}"
         )
-        return DeviceError("the simulated stand did not start", where="mocks", value=code, remedy=remedy)
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None

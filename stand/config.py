@@ -10,6 +10,8 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainSerializer, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
+from stand.codecs.codec import load_codec
+from stand.drive.profile import load_profile
 from stand.errors import InputError
 from stand.setup import Setup, check
 from stand.setup_table import read_setup, setup_table, write_toml
@@ -206,13 +208,21 @@ def _relink(instrument: Any, link: Mapping[str, Any], latency: float | None) -> 
 
 
 def load_stand(path: Path | str | None = None) -> Stand:
-    """The stand at `path`, or the nominal one; InputError naming file, key, value and remedy."""
+    """The stand at `path`, or the nominal one; InputError naming file, key, value and remedy.
+
+    What it names, the drive's profile and the gauges' codecs, is there.
+    """
     path = DEFAULT if path is None else Path(path)
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
         raise InputError(f"can't be read ({error.strerror})", where=str(path), remedy="Check the path") from error
-    return load_stand_text(text, str(path))
+    stand = load_stand_text(text, str(path))
+    load_profile(stand.drive.profile, f"{path}: drive.profile")
+    for name, gauge in stand.instruments.items():
+        if isinstance(gauge, GaugeConfig):
+            load_codec(gauge.codec, f"{path}: {name}.codec")
+    return stand
 
 
 def load_stand_text(text: str, where: str = "stand") -> Stand:

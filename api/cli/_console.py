@@ -15,7 +15,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from stand.errors import InputError
+from stand.targets import check_target
 
 #: where stdout is no terminal, lines are long rather than broken
 out = Console(highlight=False, width=None if sys.stdout.isatty() else 160, soft_wrap=not sys.stdout.isatty())
@@ -34,8 +34,7 @@ def write_json(result: object, path: Path | None) -> None:
     if str(path) == "-":
         sys.stdout.write(text)
         return
-    if not path.parent.is_dir():
-        raise InputError("no such folder", where="--json", value=str(path.parent), remedy="Make it first")
+    check_target(path, "--json")
     partial = path.with_name(f".{path.name}.{os.getpid()}")
     partial.write_text(text)
     partial.replace(path)

@@ -59,6 +59,21 @@ def configured(
     yield load_stand(path), None
 
 
+def check_ports(stand: Stand, path: Path | None) -> None:
+    """InputError naming the key where the file puts an instrument on a serial port that this machine hasn't."""
+    for name, instrument in stand.instruments.items():
+        port = getattr(instrument.link, "port", "")
+        if isinstance(port, str) and "://" not in port and not Path(port).exists():
+            remedy = f"Plug it in, or name one that is there: {_ports()}"
+            raise InputError("no such port", where=f"{path}: {name}.link.port", value=port, remedy=remedy)
+
+
+def _ports() -> str:
+    from serial.tools.list_ports import comports
+
+    return ", ".join(port.device for port in comports()) or "this machine has none"
+
+
 def hint(text: str) -> None:
     """A remark for the person at the terminal."""
     print(text, file=sys.stderr)

@@ -44,7 +44,10 @@ def run_and_watch(
     with Live(console=err, auto_refresh=False, transient=False) as live:
         screen = _Screen(live, title)
         follower = Follower(experiment, beside, changed=screen.changed, sampled=screen.sampled)
-        return _follow(follower, handle), beside
+        experiment = _follow(follower, handle)
+    if not err.is_terminal:
+        err.print()  # what follows begins a line of its own
+    return experiment, beside
 
 
 def _follow(follower: Follower, handle: RunHandle) -> Experiment:
@@ -88,7 +91,10 @@ class _Screen:
         if self._experiment is None or (not force and now - self._shown < SHOWN_EVERY):
             return
         self._shown = now
-        self._live.update(Group(self._head(self._experiment), self._table()), refresh=True)
+        parts = [self._head(self._experiment)]
+        if self._values:
+            parts.append(self._table())
+        self._live.update(Group(*parts), refresh=True)
 
     def _head(self, experiment: Experiment) -> Table:
         head = Table.grid(padding=(0, 2))

@@ -21,6 +21,7 @@ def command(
     json: JsonOption = None,
 ) -> None:
     """Run the command."""
+    from api.checkup import check_recording
     from stand.recording import read_recording
     from stand.recording.import_csv import import_csv
 
@@ -29,6 +30,7 @@ def command(
     result = {"recording": str(target), "samples": len(run.time), "rate": 1.0 / run.dt, "notes": list(run.notes)}
     if not quiet(json):
         out.print(f"{target}: {len(run.time)} samples at {1.0 / run.dt:.6g} Hz, {', '.join(run.channels)}")
-        for note in run.notes:
-            out.print(f"  note: {note}")
+        for check in check_recording(target):
+            if check.state != "ok" and check.what != "closed":
+                out.print(f"  {check.state}: {check.what}: {check.found}")
     write_json(result, json)

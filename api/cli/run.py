@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from api.cli._console import JsonOption, write_json
-from api.cli._stand import HideOption, SeedOption, SimulatedOption, StandOption, configured, serve_arguments
+from api.cli._stand import (
+    HideOption,
+    SeedOption,
+    SimulatedOption,
+    StandOption,
+    check_ports,
+    configured,
+    serve_arguments,
+)
 
 if TYPE_CHECKING:
     from api.orders import Order
@@ -45,6 +53,7 @@ def command(
     )
     on = serve_arguments(hide, seed, added_mass=bool(order.mass()))
     with configured(stand, simulated=simulated, arguments=on) as (rig, _):
+        check_ports(rig, stand)
         write_json(execute(order, rig, out), json)
 
 
@@ -56,11 +65,11 @@ def execute(order: Order, rig: Any, folder: Path | None, *, title: str = "") -> 
     from api.orders import make_plan
     from api.twins import store
     from stand.runs import RunOrder
+    from stand.targets import make_folder
 
     excitation, setup = order.excitation(), order.setup(rig)
     plan = make_plan(excitation, rig)
-    folder = folder or rig.storage.folder
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = make_folder(folder or rig.storage.folder)
     wanted = RunOrder(excitation=excitation, setup=setup, folder=folder, comment=order.comment)
     name = title or f"{excitation.shape} {excitation.frequency:g} Hz {1e3 * excitation.amplitude:g} mm"
     last, beside = run_and_watch(rig, wanted, model=order.model, seconds=float(plan.duration), title=name)

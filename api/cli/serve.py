@@ -30,6 +30,7 @@ def command(
     from api.app import create_app
     from api.operator import Operator
     from api.priority import prefer
+    from stand.targets import make_folder
 
     prefer()
 
@@ -37,8 +38,7 @@ def command(
         configured(stand, simulated=simulated, arguments=serve_arguments(hide, seed)) as (rig, mock),
         _bind(port) as bound,
     ):
-        folder = out or rig.storage.folder
-        folder.mkdir(parents=True, exist_ok=True)
+        folder = make_folder(out or rig.storage.folder)
         number = bound.getsockname()[1]
         secret = {"token": read_token(token_file)} if token_file else {}
         access = Access(cookie=f"stand_token_{number}", **secret)

@@ -202,12 +202,12 @@ def profile_names() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
 
 
-def load_profile(name: str) -> DriveProfile:
+def load_profile(name: str, where: str = "drive.profile") -> DriveProfile:
     """A profile by name, or by the path of a file of one's own; InputError naming file, key and remedy."""
     path = Path(name) if name.endswith(".toml") else FOLDER / f"{name}.toml"
     if not path.exists():
         known = ", ".join(profile_names())
-        raise InputError("no drive profile of that name", where="drive.profile", value=name, remedy=f"Known: {known}")
+        raise InputError("no drive profile of that name", where=where, value=name, remedy=f"Known: {known}")
     return parse_profile(path.read_text(encoding="utf-8"), str(path))
 
 

@@ -10,16 +10,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from stand.errors import InputError
 from stand.excitation.spec import Excitation, Shape
-from stand.recording.model import CHANNELS, Channel, Float, Recording
+from stand.recording.model import CHANNELS, Channel, Float, Quality, Recording
 from stand.recording.write import write_recording
 from stand.setup import Setup
 from stand.setup_table import read_setup
 from stand.units import conversion, parse_quantity
 
 GRID = 1 / 2000.0
+ALL_CHANNELS = Quality.DRIVE_POSITION | Quality.WEIGHT_POSITION | Quality.FIBRE_FORCE
 _HEADING = re.compile(r"^\s*(?P<name>[^\[(/]+?)\s*(?:[\[(/]\s*(?P<unit>[^\])]+?)\s*[\])]?)?\s*$")
 _ALIASES = {"t": "time", "x": "drive_position", "u": "weight_position", "f": "fibre_force"}
 _DELIMITERS = ";\t,"
@@ -31,7 +33,8 @@ def import_csv(table: Path | str, setup: Path | str, out: Path | str | None = No
 
     The CSV's first line names the columns with their units, `time [s]; x [mm]; u [mm]; F [N]` or their long names.
     The TOML has `[setup]` as in a stand's file and may have `[excitation]` and `[columns]` (heading = channel).
-    A time axis that is not uniform is resampled to 2 kHz by straight lines. InputError names file, line and column.
+    A time axis that is not uniform is resampled to 2 kHz by straight lines; where no sample is within one usual step,
+    `quality` marks all channels. InputError names file, line and column.
     """
     table, setup = Path(table), Path(setup)
     tables = _read_toml(setup)
@@ -40,17 +43,26 @@ def import_csv(table: Path | str, setup: Path | str, out: Path | str | None = No
     time, channels = _channels(columns, CHANNELS[stand_setup.system], table)
     path = Path(out) if out is not None else table.with_suffix(".h5")
     if path.exists():
-        raise InputError("exists already", where=str(path), remedy="Name another file")
+        raise InputError("exists already", where=str(path), remedy="Name another file with --out")
     return write_recording(_recording(time, channels, stand_setup, _excitation(tables, setup)), path)
 
 
 def _recording(time: Float, channels: dict[str, Float], setup: Setup, excitation: Excitation | None) -> Recording:
-    step = np.diff(time)
+    step, quality = np.diff(time), None
     if np.any(np.abs(step - step.mean()) > 0.01 * step.mean()):
         grid = time[0] + GRID * np.arange(int((time[-1] - time[0]) / GRID + 1e-9) + 1)
         channels = {name: np.interp(grid, time, values) for name, values in channels.items()}
+        quality = _far(time, grid, float(np.median(step)))
         time = grid
-    return Recording(None, setup, time - time[0], channels, excitation)
+    return Recording(None, setup, time - time[0], channels, excitation, quality=quality)
+
+
+def _far(time: Float, grid: Float, step: float) -> NDArray[np.uint8]:
+    """Quality [n]: all channels' bits where the nearest sample is farther away than a usual step, s."""
+    right = np.clip(np.searchsorted(time, grid), 1, len(time) - 1)
+    nearest = np.minimum(np.abs(time[right] - grid), np.abs(grid - time[right - 1]))
+    marked: NDArray[np.uint8] = np.where(nearest > 1.001 * max(step, GRID), ALL_CHANNELS, 0).astype(np.uint8)
+    return marked
 
 
 def _read_toml(path: Path) -> Mapping[str, Any]:
@@ -124,7 +136,7 @@ def _numbers(rows: Sequence[Sequence[str]], width: int, path: Path, *, decimal_c
     for number, row in enumerate(rows):
         where = f"{path}: sample {number + 1}"
         if len(row) != width:
-            raise InputError(f"{len(row)} columns against {width}", where=where)
+            raise InputError(f"{len(row)} columns against {width}", where=where, remedy="Mend or remove the line")
         try:
             values[number] = [float(cell.replace(",", ".") if decimal_comma else cell) for cell in row]
         except ValueError as error:
@@ -143,5 +155,6 @@ def _channels(columns: dict[str, Float], wanted: tuple[Channel, ...], path: Path
     time = columns["time"]
     if np.any(np.diff(time) <= 0):
         at = int(np.argmax(np.diff(time) <= 0))
-        raise InputError("time does not rise", where=f"{path}: sample {at + 2}", value=float(time[at + 1]))
+        where, remedy = f"{path}: sample {at + 2}", "Put the lines in the order of time, each time once"
+        raise InputError("time does not rise", where=where, value=float(time[at + 1]), remedy=remedy)
     return time, {c.name: columns[c.name] for c in wanted}

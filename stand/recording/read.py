@@ -16,6 +16,7 @@ from stand.setup import SCALARS, Setup, System, check, nominal
 from stand.units import conversion
 
 MINIMUM_REST = 0.4
+SAME = "Every channel has one value for each time"
 _OPTIONAL = frozenset({"lateral_offset", "moving_mass"})
 
 
@@ -24,6 +25,8 @@ def read_recording(path: Path | str) -> Recording:
     path = Path(path)
     if not path.exists():
         raise InputError("no such file", where=str(path), remedy="Check the path")
+    if path.is_dir():
+        raise InputError("is a folder", where=str(path), remedy="Name the recordings in it, as with runs/*.h5")
     try:
         file = h5py.File(path, "r")
     except OSError as error:
@@ -47,7 +50,7 @@ def _read(file: h5py.File, path: Path) -> Recording:
     return Recording(
         path=path,
         setup=setup,
-        time=_uniform(time, path),
+        time=_uniform(time, path, _rounding(data["time"], time)),
         channels=MappingProxyType(channels),
         excitation=_read_excitation(entry, path),
         uncertainty=_read_uncertainties(data, CHANNELS[setup.system], path),
@@ -77,14 +80,21 @@ def _units(dataset: h5py.Dataset, path: Path) -> str:
     if units is None:
         where = f"{path}:{dataset.name}"
         raise InputError("no @units", where=where, remedy='Units are read, not assumed: add the attribute, e.g. "mm"')
-    return units.decode() if isinstance(units, bytes) else str(units)
+    return _word(units)
+
+
+def _word(value: object) -> str:
+    """A string as h5py gives it: str, bytes, or an array of one of either."""
+    first = np.asarray(value).reshape(-1)[0]
+    return first.decode() if isinstance(first, bytes) else str(first)
 
 
 def _read_array(group: h5py.Group, name: str, like: str, path: Path) -> Float:
     dataset = _dataset(group, name, path)
     where = f"{path}:{dataset.name}"
     if dataset.ndim != 1 or dataset.dtype.kind not in "fiu":
-        raise InputError("not a series of numbers", where=where, value=f"{dataset.dtype}{dataset.shape}")
+        remedy = "Write it as numbers, one a sample"
+        raise InputError("not a series of numbers", where=where, value=f"{dataset.dtype}{dataset.shape}", remedy=remedy)
     values: Float = dataset[:].astype(np.float64) * conversion(_units(dataset, path), like, where)
     return values
 
@@ -93,7 +103,9 @@ def _read_scalar(dataset: h5py.Dataset, like: str, path: Path) -> float:
     where = f"{path}:{dataset.name}"
     value = np.asarray(dataset[()])
     if value.size != 1 or value.dtype.kind not in "fiu":
-        raise InputError("not a single number", where=where, value=dataset[()])
+        raise InputError(
+            "not a single number", where=where, value=dataset[()], remedy="Write one number, with its @units"
+        )
     return float(value.reshape(-1)[0]) * conversion(_units(dataset, path), like, where)
 
 
@@ -104,7 +116,8 @@ def _read_uncertainty(dataset: h5py.Dataset, like: str, path: Path) -> float | N
     where = f"{path}:{dataset.name}@uncertainty"
     sigma = float(np.asarray(stated).reshape(-1)[0])
     if not (np.isfinite(sigma) and sigma >= 0):
-        raise InputError("must be a number of 0 or more", where=where, value=sigma)
+        remedy = "One sigma, in the value's own unit"
+        raise InputError("must be a number of 0 or more", where=where, value=sigma, remedy=remedy)
     return sigma * conversion(_units(dataset, path), like, where)
 
 
@@ -114,10 +127,7 @@ def _read_uncertainties(data: h5py.Group, channels: tuple[Channel, ...], path: P
 
 
 def _text(dataset: h5py.Dataset) -> str:
-    value = dataset[()]
-    if isinstance(value, np.ndarray):
-        value = value.reshape(-1)[0]
-    return value.decode() if isinstance(value, bytes) else str(value)
+    return _word(dataset[()])
 
 
 def _read_setup(group: h5py.Group, path: Path, notes: list[str]) -> Setup:
@@ -190,28 +200,40 @@ def _check_lengths(time: Float, channels: dict[str, Float], path: Path) -> None:
     for name, values in channels.items():
         if len(values) != len(time):
             where = f"{path}:/entry/data/{name}"
-            raise InputError(f"{len(values)} samples against {len(time)} of time", where=where)
+            raise InputError(f"{len(values)} samples against {len(time)} of time", where=where, remedy=SAME)
     if len(time) < 3:
-        raise InputError("too short", where=f"{path}:/entry/data/time", value=len(time))
+        raise InputError("too short", where=f"{path}:/entry/data/time", value=f"{len(time)} samples", remedy=SAME)
 
 
-def _uniform(time: Float, path: Path) -> Float:
-    """The time axis itself, or InputError where it is not uniform to a hundredth of a sample."""
+def _rounding(dataset: h5py.Dataset, time: Float) -> float:
+    """How far a time may be off because of the type that it is written in, s."""
+    kind, longest = dataset.dtype, float(np.max(np.abs(time)))
+    if kind.kind == "f":
+        return 2 * longest * float(np.finfo(kind).eps)
+    return longest / max(1.0, float(np.max(np.abs(dataset[()].astype(np.float64)))))
+
+
+def _uniform(time: Float, path: Path, rounding: float) -> Float:
+    """The time axis, or InputError where it is not uniform to a hundredth of a sample and the rounding of its type."""
     where = f"{path}:/entry/data/time"
     if not np.all(np.isfinite(time)):
-        raise InputError("not a number", where=where, value=int(np.flatnonzero(~np.isfinite(time))[0]))
+        at = int(np.flatnonzero(~np.isfinite(time))[0])
+        raise InputError(
+            f"sample {at} is not a number", where=where, value=float(time[at]), remedy="Write every time, in s"
+        )
     step = (time[-1] - time[0]) / (len(time) - 1)
     if step <= 0:
-        raise InputError("time does not rise", where=where, value=float(step))
+        remedy = "Put the samples in the order of time"
+        raise InputError("time does not rise", where=where, value=float(step), remedy=remedy)
     off = np.abs(np.diff(time) - step)
-    if off.max() > 0.01 * step:
+    if off.max() > 0.01 * step + rounding:
         at = int(off.argmax())
         raise InputError(
             f"time is not uniform: step {at} is {time[at + 1] - time[at]:.6g} s, the mean {step:.6g} s",
             where=where,
             remedy="Resample the channels to one uniform grid, or use `stand import`",
         )
-    return time
+    return time if rounding < 1e-9 else time[0] + step * np.arange(len(time))
 
 
 def _read_quality(data: h5py.Group, length: int, path: Path) -> NDArray[np.uint8] | None:
@@ -219,7 +241,7 @@ def _read_quality(data: h5py.Group, length: int, path: Path) -> NDArray[np.uint8
         return None
     quality: NDArray[np.uint8] = np.asarray(data["quality"][()], dtype=np.uint8)
     if quality.shape != (length,):
-        raise InputError("wrong length", where=f"{path}:{data.name}/quality", value=quality.shape)
+        raise InputError("wrong length", where=f"{path}:{data.name}/quality", value=quality.shape, remedy=SAME)
     return quality
 
 

@@ -54,11 +54,13 @@ def recover(path: Path | str) -> Recovered:
 
 
 def _open(path: Path) -> h5py.File:
+    if not path.is_file():
+        raise InputError("no such file", where=str(path), remedy="Check the path")
     try:
         return h5py.File(path, "r")
     except OSError as error:
         what = f"not a readable HDF5 file ({error})"
-        remedy = "A run still being recorded is locked: wait or stop it"
+        remedy = "A run still being recorded is locked: wait or stop it; a file that was cut short can't be redone"
         raise InputError(what, where=str(path), remedy=remedy) from error
 
 
@@ -90,7 +92,8 @@ def _span(file: h5py.File, streams: dict[str, Stream], path: Path) -> tuple[floa
     origin = _noted_origin(file) or max(float(times[0]) for times in arrivals) + 0.02
     end = min(float(times[-1]) for times in arrivals)
     if end - origin < SHORTEST:
-        raise InputError("too short", where=str(path), value=f"{max(end - origin, 0.0):.3f} s")
+        remedy = f"Less than {SHORTEST} s were recorded: run it again"
+        raise InputError("too short", where=str(path), value=f"{max(end - origin, 0.0):.3f} s", remedy=remedy)
     return origin, end
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from stand.excitation.spec import Excitation
 from stand.recording.model import CHANNELS, Recording
 from stand.setup import SCALARS, Setup
+from stand.targets import check_target
 from stand.units import conversion
 
 DEFINITION, VERSION = "weight-fibre-stand", "1"
@@ -18,7 +19,7 @@ DEFINITION, VERSION = "weight-fibre-stand", "1"
 
 def write_recording(recording: Recording, path: Path) -> Path:
     """Write `recording` to `path` in the layout of `recording.md` and return the path; it must not exist."""
-    with h5py.File(path, "x") as file:
+    with h5py.File(check_target(path), "x") as file:
         entry = write_entry(file)
         write_data(entry, recording)
         write_setup(entry, recording.setup)

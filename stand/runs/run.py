@@ -19,6 +19,7 @@ from stand.runs.priority import relent
 from stand.runs.rig import Rig
 from stand.runs.rules import guide_rule, preparing_rules, standing_rules
 from stand.runs.streams import stream_specs
+from stand.targets import make_folder
 
 AFTER_TRIP = 0.3
 LATE = 0.1
@@ -46,8 +47,7 @@ def ordered_stand(stand: Stand, order: RunOrder) -> Stand:
 
 def run_path(stand: Stand, order: RunOrder) -> Path:
     """Where the recording goes; its folder is made, the file must not exist."""
-    folder = order.folder or stand.storage.folder
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = make_folder(order.folder or stand.storage.folder)
     path = folder / order.file_name()
     if path.exists():
         raise InputError("exists already", where=str(path), remedy="Choose another name")

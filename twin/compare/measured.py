@@ -81,6 +81,9 @@ def _check_finite(recording: Recording) -> None:
                 where=f"{recording.name}:/entry/data/{name}",
                 remedy="Cut the run there, or fill short gaps before comparing",
             )
+        if np.ptp(values) == 0.0:
+            where, remedy = f"{recording.name}:/entry/data/{name}", "Check its cable and its gauge"
+            raise InputError("is constant: nothing can be compared", where=where, value=float(values[0]), remedy=remedy)
 
 
 def _drive(recording: Recording, rest: int, dt: float) -> Float:
