@@ -73,7 +73,7 @@ def add_process_options(parser: argparse.ArgumentParser) -> None:
 
 def run(stand: Runs, announce: Path | None, parent: int | None, failed: Callable[[], BaseException | None]) -> int:
     """Announce, then wait for a signal, the parent's end or a failure."""
-    from mocks.devices.priority import raise_priority
+    from mocks.devices.priority import keep_at_hand, raise_priority
 
     raise_priority()
     sys.setswitchinterval(5e-5)
@@ -81,6 +81,7 @@ def run(stand: Runs, announce: Path | None, parent: int | None, failed: Callable
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: ending.set())
     line = json.dumps(stand.start())
+    keep_at_hand()
     if announce:
         announce.write_text(line + "\n")
     print(line, flush=True)

@@ -19,6 +19,9 @@ from mocks.wire.terminal import Terminal
 
 Float = NDArray[np.float64]
 
+#: s that handing over takes at least
+WRITING = 5e-6
+
 
 class Head(Protocol):
     """What makes one kind of gauge: samples to frames, and its answers to what the host sends."""
@@ -88,6 +91,7 @@ class Gauge:
     _way: list[Rows] = field(default_factory=list)
     _queued: int = 0
     _gone: int = 0
+    _sent: tuple[int, int, float] | None = None
 
     @property
     def latency(self) -> float:
@@ -97,12 +101,12 @@ class Gauge:
 
     @property
     def foresight(self) -> float:
-        """How long before a hand-over its bytes can be made, s: their samples are taken, and nothing else will leave.
+        """How long before the next hand-over its bytes can be made, s: all are sampled, and nothing else will leave.
 
         A timer cuts frames: there the first byte of a frame counts, else the whole one.
         """
         wire = (1 if self.adapter.timer else self.head.frame_bytes) * self.line.byte_time
-        return self.sensing.conversion + wire + self.adapter.jitter[0]
+        return self.sensing.conversion + wire + self.delay
 
     def prepare(self, now: float) -> None:
         """Sample up to `now`, to which the plant has come; answer the host. Nothing leaves here."""
@@ -117,8 +121,23 @@ class Gauge:
 
     def hand_over(self, now: float) -> None:
         """What is due leaves; `wake` then says when to come again."""
-        if now >= self.wake:
-            self._write(now)
+        self.send(now)
+        self.book(now)
+
+    def send(self, now: float) -> None:
+        """What is due leaves, and nothing else is done: others may be due, too."""
+        if now >= self.wake - WRITING:
+            data = self.line.take(self.release if self.adapter.timer else max(now, self.wake) - self.delay)
+            written = self.terminal.write(data) if data else 0
+            self._sent = len(data), written, self.host_time()
+
+    def book(self, now: float) -> None:
+        """What has just been sent is noted, and planned when to come again."""
+        if self._sent is not None:
+            size, written, handed = self._sent
+            self._sent, end = None, self._gone + written
+            self._gone += size
+            self._settle(end, handed)
             self._plan(now)
 
     def _watch(self, now: float) -> tuple[bool, bool]:
@@ -198,14 +217,6 @@ class Gauge:
             rows.place[:] = self._queued + self.head.frame_bytes * np.cumsum(kept)
         self._queued = int(rows.place[-1])
         self._way.append(rows)
-
-    def _write(self, now: float) -> None:
-        data = self.line.take(self.release if self.adapter.timer else now - self.delay)
-        written = self.terminal.write(data) if data else 0
-        handed = self.host_time()
-        end = self._gone + written
-        self._gone += len(data)
-        self._settle(end, handed)
 
     def _settle(self, end: int, handed: float) -> None:
         """Book the frames whose last byte went out, or was lost because the host's buffer was full."""

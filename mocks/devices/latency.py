@@ -1,12 +1,15 @@
-"""How the drive's server answers a host on the same machine: `python -m mocks.devices.latency HOST PORT UNIT`.
+"""How quickly a host on the same machine hears: `python -m mocks.devices.latency HOST PORT UNIT` or `... TERMINAL`.
 
 A host puts the drive's look at itself in the middle between its request and the answer. What the two legs differ by
-is the link's fixed latency: half of it is how much too late the samples then seem.
+is the link's fixed latency: half of it is how much too late the samples then seem. A serial port's bytes pass through
+the system, too, before a host has them.
 """
 
 from __future__ import annotations
 
 import json
+import os
+import select
 import socket
 import statistics
 import struct
@@ -14,7 +17,10 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+
+from mocks.wire.terminal import Terminal
 
 TRIES, PAUSE, QUICK = 150, 7e-4, 0.3
 
@@ -42,6 +48,34 @@ def drive_latency(host: str, port: int, unit: int, looks: list[float]) -> Legs:
     return Legs(*(statistics.median(r[k + 1] - r[k] for r in quickest) for k in (0, 1)))
 
 
+def port_latency(terminal: Terminal) -> float:
+    """From bytes handed over to a host of its own that has them, s: median of the quickest."""
+    command = [sys.executable, "-m", "mocks.devices.latency", str(terminal.port)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as host:
+        assert host.stdout is not None
+        host.stdout.readline()
+        sent = []
+        for _ in range(TRIES):
+            time.sleep(PAUSE)
+            sent.append(time.monotonic())
+            terminal.write(b"\xaa" * 8)
+        terminal.disconnect()
+        came: list[float] = json.loads(host.stdout.readline())
+    took = [min((t - s for t in came if t > s), default=1.0) for s in sent]
+    return statistics.median(sorted(took)[: int(QUICK * len(took))])
+
+
+def listen(port: str) -> list[float]:
+    """When bytes came at a serial port, until it hangs up."""
+    descriptor, came = os.open(port, os.O_RDWR | os.O_NOCTTY), []
+    print("ready", flush=True)
+    with suppress(OSError):
+        while select.select([descriptor], [], [], 5.0)[0] and os.read(descriptor, 4096):
+            came.append(time.monotonic())
+    os.close(descriptor)
+    return came
+
+
 def ask(host: str, port: int, unit: int) -> list[tuple[float, float]]:
     """(asked, answered) of TRIES reads of the ring."""
     request = struct.pack(">HHHBBHH", 1, 0, 6, unit, 3, 2000, 64)
@@ -61,8 +95,11 @@ def ask(host: str, port: int, unit: int) -> list[tuple[float, float]]:
 
 def main(arguments: Sequence[str]) -> None:
     """Prints the times as JSON."""
-    host, port, unit = arguments
-    print(json.dumps(ask(host, int(port), int(unit))))
+    if len(arguments) == 1:
+        print(json.dumps(listen(arguments[0])))
+    else:
+        host, port, unit = arguments
+        print(json.dumps(ask(host, int(port), int(unit))))
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ from mocks.devices.control import Control, serve_control
 from mocks.devices.dictionary import Dictionary
 from mocks.devices.gauge import Gauge, Head, Sensing
 from mocks.devices.heads import DialHead, ForceHead
-from mocks.devices.latency import drive_latency
+from mocks.devices.latency import drive_latency, port_latency
 from mocks.devices.nanotec import INPUTS, RING, RX, TX, NanotecDrive
 from mocks.devices.rehearsal import rehearse
 from mocks.devices.ring import Ring
@@ -36,6 +36,7 @@ from mocks.wire.relay import Relay
 from mocks.wire.terminal import Terminal
 
 PPM, DRIFT = 1e-6, 50.0
+FLUSH = 0.25  # s
 DIAL_ZERO = 0.1  # m within which the dial gauge's own zero is drawn
 
 
@@ -68,7 +69,7 @@ class SimulatedStand:
         rehearse(self.world, self.gauges.values())
         if self.ledger:
             self.ledger.describe(self.facts())
-        self.scheduler = Scheduler(self.world, list(self.gauges.values()), self._flush)
+        self.scheduler = Scheduler(self.world, list(self.gauges.values()))
         self.lock = self.scheduler.lock
         bases = (RING, INPUTS, TX, RX)
         self.registers = LockedRegisters(self.drive, bases, self.lock, self.world.advance)
@@ -79,6 +80,8 @@ class SimulatedStand:
         self.control_port = 0
         self.loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self.loop.run_forever, name="modbus", daemon=True)
+        self._clerk = threading.Thread(target=self._keep_books, name="ledger", daemon=True)
+        self._closing = threading.Event()
         self._faults = sorted(config.faults, key=lambda fault: fault.at)
 
     def _clock(self, name: str, config: DriveConfig | GaugeConfig, period: float) -> DeviceClock:
@@ -143,12 +146,14 @@ class SimulatedStand:
             "ring": self.drive.ring.count, "force": self.gauges["force_gauge"].newest,
         }  # fmt: skip
 
-    def _flush(self, now: float) -> None:
-        if self.ledger:
-            self.ledger.flush()
-        while self._faults and now - self.world.start >= self._faults[0].at:
-            command = self._faults.pop(0).command
-            self.loop.call_soon_threadsafe(self.control.line, command)
+    def _keep_books(self) -> None:
+        """Ledger to the disk, which may take its time, and the configured faults when they are due."""
+        while not self._closing.wait(FLUSH):
+            if self.ledger:
+                self.ledger.flush()
+            while self._faults and time.monotonic() - self.world.start >= self._faults[0].at:
+                command = self._faults.pop(0).command
+                self.loop.call_soon_threadsafe(self.control.line, command)
 
     def disconnect_drive(self, seconds: float) -> None:
         """The drive's TCP side is gone for a while."""
@@ -160,6 +165,7 @@ class SimulatedStand:
         self.relay.start()
         asyncio.run_coroutine_threadsafe(self._open(), self.loop).result(10.0)
         self.scheduler.start()
+        self._clerk.start()
         return self.announcement()
 
     async def _open(self) -> None:
@@ -175,7 +181,8 @@ class SimulatedStand:
         legs = drive_latency(host, self.servers.port, self.config.drive.unit_id, looks)
         self.registers.looks = None
         latency = {"drive": legs.fixed, "drive_request": legs.request, "drive_answer": legs.answer}
-        latency |= {name: gauge.latency for name, gauge in self.gauges.items()}
+        latency["port"] = port_latency(Terminal(self.folder, "trial"))
+        latency |= {name: gauge.latency + latency["port"] for name, gauge in self.gauges.items()}
         return {
             "ready": True, "pid": os.getpid(),
             "drive": {
@@ -190,6 +197,8 @@ class SimulatedStand:
     def stop(self) -> None:
         """End all threads, close everything."""
         self.scheduler.end()
+        self._closing.set()
+        self._clerk.join()
         asyncio.run_coroutine_threadsafe(self.servers.stop(), self.loop).result(5.0)
         self.loop.call_soon_threadsafe(self.loop.stop)
         self._thread.join()

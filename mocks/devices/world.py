@@ -16,7 +16,7 @@ Float = NDArray[np.float64]
 #: rows of what is kept: drive; weight and force as sensed and as they are
 X, U, TRUE_U, F, TRUE_F = range(5)
 WEIGHT, FORCE = slice(1, 3), slice(3, 5)
-CHUNK = 80
+CHUNK = 120
 _KEPT = 40_000
 
 

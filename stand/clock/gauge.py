@@ -13,6 +13,8 @@ from stand.clock.model import Clock
 
 #: crystals keep to this (relative); a slower or faster clock is believed where the reads leave no other
 TOLERANCE, WIDE = 55e-6, 2e-3
+#: ticks that leave more than this share of a frame period open are no better than the earliest arrivals
+VAGUE = 0.15
 #: a gap's place is sure to this many seconds
 DOUBT = 0.06
 
@@ -36,10 +38,13 @@ def fit_gauge(
     reads: Reads, period: float, byte_time: float, length: int, latency: float, latency_sigma: float
 ) -> GaugeFit:
     """Clock and gaps. period: nominal, s; latency s (sample taken -> last byte in the host's hands, earliest)."""
-    bounds = bounds_of(reads, period, byte_time, length)
-    gaps = find_gaps(bounds, reads, period)
-    shifted = _without_doubt(shift(bounds, reads.frames, gaps), reads, gaps)
-    line, method, room = _line(shifted, period)
+    for timed in (True, False):
+        bounds = bounds_of(reads, period, byte_time, length, timed)
+        gaps = find_gaps(bounds, reads, period)
+        shifted = _without_doubt(shift(bounds, reads.frames, gaps), reads, gaps)
+        line, method, room = _line(shifted, period)
+        if method == "ticks" or not bounds.two_sided:
+            break
     fit_sigma = _sigma(shifted, period) if room is None else room
     residual = float(np.median(shifted.before - line.at(shifted.early)))
     sigma = float(np.hypot(fit_sigma, latency_sigma))
@@ -65,15 +70,16 @@ def _line(bounds: Bounds, period: float) -> tuple[Line, str, float | None]:
     """The clock's line, how it was found, and one sigma where the bounds state it by themselves."""
     if bounds.two_sided:
         points = (bounds.late, bounds.after, bounds.early, bounds.before)
-        fuzz = 6.0 * bounds.residual / len(bounds.early)  # how far the ticks' own fit may be off
+        fuzz = 6.0 * bounds.residual / len(bounds.early)  # how far the ticks stray from their line
         for spread in (TOLERANCE, WIDE):
             lacking = max(0.0, -line_between(*points, period, spread).margin)
             if lacking > SLACK * period * (0.5 if spread == TOLERANCE else 1.0):
                 continue
             room = lacking + fuzz
             found = mean_between(points[0], points[1] - room, points[2], points[3] + room, period, spread)
-            if found is not None:
-                return found[0], "ticks", float(np.hypot(found[1], fuzz))
+            sigma = float(np.hypot(found[1], fuzz + bounds.doubt)) if found is not None else np.inf
+            if found is not None and sigma < VAGUE * period:
+                return found[0], "ticks", sigma
     return line_below(bounds.early, bounds.before, period), "envelope", None
 
 

@@ -3,11 +3,15 @@
 A poll that was asked at q and answered by p and found h samples written was read at some time r in [q, p]; sample
 h - 1 was taken before r and sample h after it: t(h - 1) <= p and t(h) >= q. With t(k) = offset + k period every poll is
 two half-planes; the line farthest from all of them starts the fit. Then r is taken as the bracket's middle, give or
-take a logistic error whose scale grows with the bracket: the polls that fall near a sample's edge then weigh in
-together, as in an ordered logit regression, whose likelihood is concave in offset and period (Pratt 1981).
+take a logistic error whose scale grows with the bracket, and a share of what the trip took longer than the quickest,
+which the polls themselves tell (a busy host reads its answers late, not its questions). The polls that fall near a
+sample's edge then weigh in together, as in an ordered logit regression, whose likelihood is concave in offset, period
+and share (Pratt 1981).
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +24,8 @@ Float = NDArray[np.float64]
 #: share of the quickest polls that the likelihood uses, and the least scale of its error, s
 QUICK = 0.6
 FLOOR = 2e-6
+#: how far from the middle of what a trip took too long the read may well be, as a share of it: 1/2 is its end
+SIDED = 0.25
 #: periods without a new sample after which the ring is taken to stand
 STILL = 2.5
 
@@ -51,25 +57,13 @@ def refine(start: Line, h: Float, request: Float, response: Float) -> tuple[Line
     trip = response - request
     quick = trip <= np.quantile(trip, QUICK)
     h, middle, trip = h[quick], (request + response)[quick] / 2, trip[quick]
-    scale = FLOOR + 0.25 * (trip - trip.min())
+    excess = trip - trip.min()
+    scale = FLOOR + 0.25 * excess
     centre, reach = float(h.mean()), max(float(np.ptp(h)) / 2, 1.0)
     z = (h - centre) / reach
     base = start.at(h) - middle
-    below = base - start.slope
-    shift = np.zeros(2)
-    value, gradient, hessian = _likelihood(shift, z, below, base, scale, reach)
-    for _ in range(40):
-        step = -np.linalg.solve(hessian, gradient)
-        step *= min(1.0, float(np.median(scale)) * 2 / max(float(np.abs(step).max()), 1e-12))
-        trial, g, hess = _likelihood(shift + step, z, below, base, scale, reach)
-        for _ in range(20):
-            if trial >= value:
-                break
-            step = step / 2
-            trial, g, hess = _likelihood(shift + step, z, below, base, scale, reach)
-        shift, value, gradient, hessian = shift + step, trial, g, hess
-        if float(np.abs(step).max()) < 1e-9:
-            break
+    brackets = _Brackets(base - start.slope, base, z - 1 / reach, z, excess, scale)
+    shift, hessian = _likeliest(brackets, 2 * float(np.median(scale)))
     slope = start.slope + float(shift[1]) / reach
     intercept = start.intercept + float(shift[0]) - float(shift[1]) * centre / reach
     covariance = np.linalg.inv(-hessian)
@@ -77,23 +71,56 @@ def refine(start: Line, h: Float, request: Float, response: Float) -> tuple[Line
     return Line(intercept, slope, start.margin), sigma
 
 
-def _likelihood(
-    shift: Float, z: Float, below: Float, above: Float, scale: Float, reach: float
-) -> tuple[float, Float, Float]:
-    """log P(t(h - 1) < r < t(h)), its gradient [2] and Hessian [2, 2] in the shift of centre and end, s."""
-    zl = z - 1 / reach
-    a = (below + shift[0] + shift[1] * zl) / scale
-    b = (above + shift[0] + shift[1] * z) / scale
-    fa, fb = _logistic(a), _logistic(b)
-    # log(F(b) - F(a)) = log F(b) + log(1 - F(a)) + log(1 - exp(a - b))
-    gap = -np.expm1(np.minimum(a - b, -1e-9))
-    value = float(np.sum(np.log(np.maximum(fb, 1e-300)) + np.log(np.maximum(1 - fa, 1e-300)) + np.log(gap)))
-    da, db = -fa / scale, (1 - fb) / scale
-    ha, hb = fa * (1 - fa) / scale**2, fb * (1 - fb) / scale**2
-    gradient = np.array([np.sum(da + db), np.sum(da * zl + db * z)])
-    cross = -np.sum(ha * zl + hb * z)
-    hessian = np.array([[-np.sum(ha + hb), cross], [cross, -np.sum(ha * zl * zl + hb * z * z)]])
-    return value, gradient, hessian - np.eye(2) * 1e-6 / float(scale.min()) ** 2
+@dataclass(frozen=True)
+class _Brackets:
+    """Polls [k]: from each middle to the samples below and above it s, their places -1..1, excess of the trip and the
+    error's scale, s."""
+
+    below: Float
+    above: Float
+    place_below: Float
+    place_above: Float
+    excess: Float
+    scale: Float
+
+    def judge(self, shift: Float) -> tuple[float, Float, Float]:
+        """log P(t(h - 1) < r < t(h)), its gradient [3] and Hessian [3, 3] in the shift.
+
+        shift: of the line's centre and end, s, and of the read within what a trip took longer than the quickest
+        (0: in the middle, -1/2: the answer alone was late).
+        """
+        ones = np.ones(len(self.scale))
+        low = np.stack((ones, self.place_below, -self.excess), axis=1) / self.scale[:, None]
+        high = np.stack((ones, self.place_above, -self.excess), axis=1) / self.scale[:, None]
+        a, b = self.below / self.scale + low @ shift, self.above / self.scale + high @ shift
+        fa, fb = _logistic(a), _logistic(b)
+        # log(F(b) - F(a)) = log F(b) + log(1 - F(a)) + log(1 - exp(a - b))
+        gap = -np.expm1(np.minimum(a - b, -1e-9))
+        value = float(np.sum(np.log(np.maximum(fb, 1e-300)) + np.log(np.maximum(1 - fa, 1e-300)) + np.log(gap)))
+        gradient = high.T @ (1 - fb) - low.T @ fa
+        hessian = -(high.T * (fb * (1 - fb))) @ high - (low.T * (fa * (1 - fa))) @ low
+        weak = np.array([1e-6 / float(self.scale.min()) ** 2] * 2 + [1 / SIDED**2])
+        value -= 0.5 * float(weak[2] * shift[2] ** 2)
+        gradient[2] -= weak[2] * shift[2]
+        return value, gradient, hessian - np.diag(weak)
+
+
+def _likeliest(brackets: _Brackets, longest: float) -> tuple[Float, Float]:
+    """The shift of greatest likelihood and the Hessian there, by Newton steps of at most `longest` s."""
+    shift = np.zeros(3)
+    value, gradient, hessian = brackets.judge(shift)
+    for _ in range(40):
+        step = -np.linalg.solve(hessian, gradient)
+        step *= min(1.0, longest / max(float(np.abs(step[:2]).max()), 1e-12))
+        for _ in range(20):
+            trial, g, hess = brackets.judge(shift + step)
+            if trial >= value:
+                break
+            step = step / 2
+        shift, value, gradient, hessian = shift + step, trial, g, hess
+        if float(np.abs(step[:2]).max()) < 1e-9:
+            break
+    return shift, hessian
 
 
 def _logistic(x: Float) -> Float:

@@ -203,7 +203,7 @@ def test_two_gauges_on_16_ms_timers_both_keep_streaming(shift: float) -> None:
         begun = time.monotonic()
         device.clock, device.adapter.phase = DeviceClock(begun, 0.0), begun + phase
         devices.append(device)
-    scheduler = Scheduler(Still(), devices, lambda now: None)  # type: ignore[arg-type]
+    scheduler = Scheduler(Still(), devices)  # type: ignore[arg-type]
     Still.now = time.monotonic()
     scheduler.start()
     time.sleep(0.3)
