@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stand.clock.lines import Line, line_below
+from stand.clock.lines import Line, line_below, line_under
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
@@ -79,7 +79,7 @@ def find_ticks(time: Float, content: Float, frame_period: float) -> Ticks | None
     if np.count_nonzero(whole) < 0.8 * len(time):
         return None
     number[whole] += _skipped(time[whole] - period * number[whole], period)
-    line = line_below(number[whole], time[whole], period)
+    line = line_under(number[whole], time[whole], period)
     late = time[whole] - line.at(number[whole])
     if _unsteady(late):
         return None
@@ -123,7 +123,7 @@ def _unsteady(late: Float, window: int = 24, allowed: float = 250e-6) -> bool:
 
 def _doubt(number: Float, time: Float, period: float) -> float:
     """How far the lines of two halves of the reads are apart at most, halved."""
-    one, two = (line_below(number[part::2], time[part::2], period) for part in (0, 1))
+    one, two = (line_under(number[part::2], time[part::2], period) for part in (0, 1))
     ends = number[[0, -1]]
     return float(np.max(np.abs(one.at(ends) - two.at(ends)))) / 2
 

@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 
 Float = NDArray[np.float64]
 
+#: s below which a distance counts as this much where absolutes are weighed
+LEAST = 5e-6
+
 
 @dataclass(frozen=True, slots=True)
 class Line:
@@ -68,6 +71,30 @@ def line_below(k: Float, y: Float, slope: float) -> Line:
     margin = float(np.mean(yc) - level)
     total = slope + tilt
     return Line(base + level - total * centre, total, margin)
+
+
+def line_under(k: Float, y: Float, slope: float, group: int = 24) -> Line:
+    """The line under all points whose slope is that of the lowest point in each `group` of them (least absolutes).
+
+    Where few points are nearly as low as they can be, two of them make a worse slope than the many that come close.
+    margin: the mean distance to the points.
+    """
+    start = line_below(k, y, slope)
+    rest = y - start.at(k)
+    count = len(k) // group
+    if count < 4:
+        return start
+    low = rest[: count * group].reshape(count, group).argmin(axis=1) + group * np.arange(count)
+    centre = float(np.mean(k))
+    place, height = k[low] - centre, rest[low]
+    weight = np.ones(count)
+    for _ in range(30):
+        tilt, level = np.polyfit(place, height, 1, w=np.sqrt(weight))
+        weight = 1 / np.maximum(np.abs(height - level - tilt * place), LEAST)
+    rest = rest - tilt * (k - centre)
+    under = float(np.min(rest))
+    intercept = start.intercept + under - tilt * centre
+    return Line(intercept, start.slope + float(tilt), float(np.mean(rest)) - under)
 
 
 def line_between(k_low: Float, low: Float, k_high: Float, high: Float, slope: float, spread: float = 2e-3) -> Line:
