@@ -42,7 +42,7 @@ def contact(c, length, g, derive, rim, first, q, v, zb, z, f, k, edge):  # type:
     at = int(c[SHAPES]) + 5 * GAUSS
     w = length / points
     kn, kt, mu = c[CONTACT] * w, c[SHEAR] * w, c[SLIDING]
-    torque, corner = 0.0, 0.0
+    torque, corner, inverse = 0.0, 0.0, 1.0 / radius
     for point in range(points):
         s0, s1, s2, s3 = c[at], c[at + 1] * length, c[at + 2], c[at + 3] * length
         at += 4
@@ -53,11 +53,12 @@ def contact(c, length, g, derive, rim, first, q, v, zb, z, f, k, edge):  # type:
             z[first + point] = 0.0
             continue
         rho = math.sqrt(rho2)
-        nx, ny = x / rho, y / rho
+        per_rho, lever = 1.0 / rho, rho * inverse
+        nx, ny = x * per_rho, y * per_rho
         tx, ty = ny, -nx
         push = kn * (radius - rho)
         slide = tx * (s0 * v[0] + s1 * v[2] + s2 * v[4] + s3 * v[6])
-        slide += ty * (s0 * v[1] + s1 * v[3] + s2 * v[5] + s3 * v[7]) - rim * rho / radius
+        slide += ty * (s0 * v[1] + s1 * v[3] + s2 * v[5] + s3 * v[7]) - rim * lever
         bristle = zb[first + point] + g * slide
         grip = kt * bristle
         slips = abs(grip) > mu * push
@@ -74,19 +75,19 @@ def contact(c, length, g, derive, rim, first, q, v, zb, z, f, k, edge):  # type:
         f[5] += s2 * fy
         f[6] += s3 * fx
         f[7] += s3 * fy
-        torque -= grip * rho / radius
+        torque -= grip * lever
         if derive:
-            nn, tt, nt = kn * g, -push * g / rho, -grip * g / rho
+            nn, tt, nt = kn * g, -push * g * per_rho, -grip * g * per_rho
             tn = 0.0
             if slips:
                 tn = -math.copysign(mu * kn * g, grip)
-                row_n, row_t = -tn * rho / radius, 0.0
+                row_n, row_t = -tn * lever, 0.0
                 col = 0.0
             else:
                 tt += kt * g
-                col = -kt * g * rho / radius
+                col = -kt * g * lever
                 row_n, row_t = 0.0, col
-                corner += kt * g * (rho / radius) ** 2
+                corner += kt * g * lever**2
             spread(
                 k,
                 s0,
@@ -108,23 +109,30 @@ def contact(c, length, g, derive, rim, first, q, v, zb, z, f, k, edge):  # type:
 
 
 @part
-def gather(c, x, w, q, v, a, e, elements, out):  # type: ignore[no-untyped-def]
-    """Positions, velocities and accelerations of element e's two nodes, out [3, 8]."""
-    base = 4 * e - 1
-    for i in range(8):
-        if base + i >= 1:
-            out[0, i], out[1, i], out[2, i] = q[base + i], v[base + i], a[base + i]
-    if e == 0:
-        px, py, dx, dy, _, _ = weight_end(c, q[0])
-        out[0, 0], out[0, 1], out[1, 0], out[1, 1] = px, py, dx * v[0], dy * v[0]
-        out[2, 0], out[2, 1] = dx * a[0], dy * a[0]
-        for i in range(2, 4):
-            out[0, i], out[1, i], out[2, i] = q[i - 1], v[i - 1], a[i - 1]
-    if e == elements - 1:
-        out[0, 4], out[0, 5], out[1, 4], out[1, 5] = drive_end(c, x, w)
-        out[2, 4] = out[2, 5] = 0.0
-        for i in range(6, 8):
-            out[0, i], out[1, i], out[2, i] = q[base + i - 2], v[base + i - 2], a[base + i - 2]
+def spread_out(c, x, w, q, v, a, elements, out):  # type: ignore[no-untyped-def]
+    """Positions, velocities and accelerations of all nodes and slopes in a row, out [3, 4 (elements + 1)]."""
+    end = 4 * elements
+    px, py, dx, dy, _, _ = weight_end(c, q[0])
+    out[0, 0], out[0, 1], out[1, 0], out[1, 1] = px, py, dx * v[0], dy * v[0]
+    out[2, 0], out[2, 1] = dx * a[0], dy * a[0]
+    for i in range(2, end):
+        out[0, i], out[1, i], out[2, i] = q[i - 1], v[i - 1], a[i - 1]
+    out[0, end], out[0, end + 1], out[1, end], out[1, end + 1] = drive_end(c, x, w)
+    out[2, end] = out[2, end + 1] = 0.0
+    for i in range(end + 2, end + 4):
+        out[0, i], out[1, i], out[2, i] = q[i - 3], v[i - 3], a[i - 3]
+
+
+@part(fastmath=_FAST)
+def clear(q, length, radius):  # type: ignore[no-untyped-def]
+    """True where an element cannot touch: its Bezier points lie beyond a tangent of the rim."""
+    third = length / 3.0
+    nx, ny = q[0] + q[4], q[1] + q[5]
+    least = min(nx * q[0] + ny * q[1], nx * q[4] + ny * q[5])
+    one = nx * (q[0] + third * q[2]) + ny * (q[1] + third * q[3])
+    two = nx * (q[4] - third * q[6]) + ny * (q[5] - third * q[7])
+    least = min(least, min(one, two))
+    return least > 0.0 and least * least > radius * radius * (nx * nx + ny * ny)
 
 
 @compiled(ASSEMBLE)
@@ -145,26 +153,27 @@ def assemble(mode, c, g, x, w, q, v, a, zb, z, r, band, border):  # type: ignore
         border[:, :] = 0.0
         border[0, s] = c[RIM] / g
     _, _, dx, dy, cx, cy = weight_end(c, q[0])
-    node, lin = np.empty((3, 8)), np.empty((12, 4))
-    f, k, edge, work = np.empty(8), np.empty((8, 8)), np.empty((2, 8)), np.empty((5, 8))
+    room = 12 * (elements + 1)
+    space = np.empty(room + 176)
+    full, f, lin = space[:room].reshape(3, -1), space[room : room + 8], space[room + 8 : room + 56].reshape(12, 4)
+    k, edge = space[room + 56 : room + 120].reshape(8, 8), space[room + 120 : room + 136].reshape(2, 8)
+    work = space[room + 136 :].reshape(5, 8)
+    spread_out(c, x, w, q, v, a, elements, full)
     previous, pull, bend = -1.0, 0.0, 0.0
     for e in range(elements):
         length = c[int(c[LENGTHS]) + e]
         if length != previous:
             linear(c, length, g, derive, lin)
             previous = length
-        gather(c, x, w, q, v, a, e, elements, node)
-        element(c, length, g, derive, node[0], node[1], node[2], lin, f, k, work)
+        here, speed = full[0, 4 * e : 4 * e + 8], full[1, 4 * e : 4 * e + 8]
+        element(c, length, g, derive, here, speed, full[2, 4 * e : 4 * e + 8], lin, f, k, work)
         if e == 0:
             pull = math.hypot(f[0], f[1])
-        near = radius + length
-        touches = (
-            radius > 0.0 and min(node[0, 0] ** 2 + node[0, 1] ** 2, node[0, 4] ** 2 + node[0, 5] ** 2) < near * near
-        )
+        touches = radius > 0.0 and not clear(here, length, radius)
         base = 4 * e - 1
         if touches:
             edge[:, :] = 0.0
-            torque, corner = contact(c, length, g, derive, v[s], points * e, node[0], node[1], zb, z, f, k, edge)
+            torque, corner = contact(c, length, g, derive, v[s], points * e, here, speed, zb, z, f, k, edge)
             r[s] += torque
             if derive and corner != 0.0:
                 border[0, s] += corner
@@ -225,10 +234,11 @@ def gauge(c, x, w, q, v, z):  # type: ignore[no-untyped-def]
     elements = int(c[ELEMENTS])
     e = elements - 1
     length = c[int(c[LENGTHS]) + e]
-    node, lin = np.empty((3, 8)), np.empty((12, 4))
+    full, lin = np.empty((3, 4 * elements + 4)), np.empty((12, 4))
     f, k, work = np.empty(8), np.empty((8, 8)), np.empty((5, 8))
     linear(c, length, 1.0, False, lin)
-    gather(c, x, w, q, v, q, e, elements, node)
-    node[2] = 0.0
-    element(c, length, 1.0, False, node[0], node[1], node[2], lin, f, k, work)
+    spread_out(c, x, w, q, v, q, elements, full)
+    full[2] = 0.0
+    at = 4 * e
+    element(c, length, 1.0, False, full[0, at:], full[1, at:], full[2, at:], lin, f, k, work)
     return f[4] * c[DTX] + f[5] * c[DTY]

@@ -54,22 +54,28 @@ def element(c, length, g, derive, q, v, a, lin, f, k, work):  # type: ignore[no-
     """One element's inertia, bending and axial forces f [8] and tangent k [8, 8]; q, v, a: its nodes', [8];
     work [5, 8]."""
     tau, drag = c[TAU], c[DRAG]
-    for i in range(4):
-        fx, fy = 0.0, 0.0
-        for j in range(4):
-            fx += lin[i, j] * (a[2 * j] + drag * v[2 * j]) + lin[4 + i, j] * (q[2 * j] + tau * v[2 * j])
-            fy += lin[i, j] * (a[2 * j + 1] + drag * v[2 * j + 1]) + lin[4 + i, j] * (q[2 * j + 1] + tau * v[2 * j + 1])
-        weight = lin[i, 0] + lin[i, 2]
-        f[2 * i], f[2 * i + 1] = fx - weight * c[GX], fy - weight * c[GY]
+    m0, m1, m2, m3, m4, m5, m6 = lin[0, 0], lin[0, 1], lin[0, 2], lin[0, 3], lin[1, 1], lin[1, 2], lin[1, 3]
+    k12, k6, k4, k2 = lin[4, 0], lin[4, 1], lin[5, 1], lin[5, 3]
+    for x in range(2):
+        gravity = c[GX] if x == 0 else c[GY]
+        p0, p1 = a[x] + drag * v[x] - gravity, a[2 + x] + drag * v[2 + x]
+        p2, p3 = a[4 + x] + drag * v[4 + x] - gravity, a[6 + x] + drag * v[6 + x]
+        d = q[x] - q[4 + x] + tau * (v[x] - v[4 + x])
+        s, t = q[2 + x] + tau * v[2 + x], q[6 + x] + tau * v[6 + x]
+        push, bend = k12 * d + k6 * (s + t), k6 * d
+        f[x] = (m0 * p0 + m1 * p1) + (m2 * p2 + m3 * p3) + push
+        f[2 + x] = (m1 * p0 + m4 * p1) + (m5 * p2 + m6 * p3) + (bend + k4 * s + k2 * t)
+        f[4 + x] = (m2 * p0 + m5 * p1) + (m0 * p2 - m1 * p3) - push
+        f[6 + x] = (m3 * p0 + m6 * p1) + (m4 * p3 - m1 * p2) + (bend + k2 * s + k4 * t)
     if derive:
         for i in range(4):
             for j in range(4):
                 k[2 * i, 2 * j] = k[2 * i + 1, 2 * j + 1] = lin[8 + i, j]
                 k[2 * i, 2 * j + 1] = k[2 * i + 1, 2 * j] = 0.0
-    at = int(c[SHAPES])
+    at, inverse = int(c[SHAPES]), 1.0 / length
     mean = 0.0
     for i in range(GAUSS):  # work[i]: slopes of the shape functions, w r', the strain's derivative, the strain
-        w, d0, d1, d3 = c[at], c[at + 1] / length, c[at + 2], c[at + 4]
+        w, d0, d1, d3 = c[at], c[at + 1] * inverse, c[at + 2], c[at + 4]
         at += 5
         rx, ry = d0 * (q[0] - q[4]) + d1 * q[2] + d3 * q[6], d0 * (q[1] - q[5]) + d1 * q[3] + d3 * q[7]
         vx, vy = d0 * (v[0] - v[4]) + d1 * v[2] + d3 * v[6], d0 * (v[1] - v[5]) + d1 * v[3] + d3 * v[7]
