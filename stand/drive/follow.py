@@ -14,6 +14,7 @@ from stand.errors import DeviceError
 STRAY = 0.025
 QUIET = 20e-6
 SAFETY_MARGIN = 0.003
+LEAST_ACCELERATION = 0.02
 
 
 class PlannedMotion(Protocol):
@@ -62,6 +63,20 @@ def follow(
         drive.set_window(*bounds)
 
 
+@dataclass(frozen=True, slots=True)
+class _Ramp:
+    """The velocity that the drive demands of itself: from `start` at time `at` towards `target`, m/s, s, m/s^2."""
+
+    at: float = 0.0
+    start: float = 0.0
+    target: float = 0.0
+    acceleration: float = LEAST_ACCELERATION
+
+    def velocity(self, t: float) -> float:
+        reach = self.acceleration * max(0.0, t - self.at)
+        return self.start + min(reach, max(-reach, self.target - self.start))
+
+
 def _stream(
     drive: Drive,
     plan: PlannedMotion,
@@ -72,18 +87,21 @@ def _stream(
     dt = 1.0 / drive.config.command_rate
     gain, started = drive.profile.motion.gain, drive.clock()
     on_start(started)
-    velocity, error, worst, late, step = 0.0, 0.0, 0.0, 0, 0
+    ramp, error, worst, late, step = _Ramp(), 0.0, 0.0, 0, 0
     before, pace, lead = -dt, dt, 0.0
     while (now := drive.clock() - started) < plan.duration:
         if should_stop():
             return Followed(False, worst, late, started)
+        late += now > (step + 1) * dt
         pace = max(dt, pace + 0.3 * (min(now - before, 0.05) - pace))
         before = now
         wanted = plan.state(now + lead + pace)[1]
         quiet = wanted == 0.0 and plan.state(now)[1] == 0.0 and abs(error) < QUIET
         command = 0.0 if quiet else wanted + gain * error
-        demand = _exchange(drive, command, abs(command - velocity) / pace)
-        velocity, looked = command, drive.link.looked - started
+        acceleration = max(LEAST_ACCELERATION, abs(command - ramp.velocity(now + lead)) / pace)
+        demand = _exchange(drive, command, acceleration)
+        looked = drive.link.looked - started
+        ramp = _Ramp(looked, ramp.velocity(looked), command, acceleration)
         lead += 0.1 * (min(looked - now, 0.05) - lead)
         error = plan.state(looked)[0] - (demand - origin)
         worst = max(worst, abs(error))
@@ -91,14 +109,13 @@ def _stream(
             value = f"{error * 1e3:.1f} mm off"
             raise DeviceError("the drive does not follow the plan", where=drive.link.where, value=value)
         step = max(step + 1, int((drive.clock() - started) / dt))
-        late += drive.clock() - started > (step + 1) * dt
         drive.sleep(max(0.0, started + step * dt - drive.clock()))
     return Followed(True, worst, late, started)
 
 
 def _exchange(drive: Drive, velocity: float, acceleration: float) -> float:
     """One step on the wire; the position that the drive demands of itself, m of travel."""
-    ramp = max(1, drive.counts("acceleration", max(acceleration, 0.02)))
+    ramp = max(1, drive.counts("acceleration", acceleration))
     counts = drive.counts("velocity", drive.config.direction * velocity)
     values = {"target_velocity": counts, "profile_acceleration": ramp, "profile_deceleration": ramp}
     snapshot = drive.backend.command({**values, "controlword": cia402.ENABLE})
