@@ -25,9 +25,9 @@ SPEED, ACCELERATION = 1.0, 12.0
 CANDIDATES = (
     ("trapezoidal", 0.25, 0.06, 0.8, 0.0),
     ("trapezoidal", 1.25, 0.03, 0.20, 0.0),
-    ("trapezoidal", 1.6, 0.05, 0.15, 0.0),
-    ("trapezoidal", 2.0, 0.035, 0.125, 0.0),
-    ("trapezoidal", 1.6, 0.06, 0.13, MASS),
+    ("trapezoidal", 1.6, 0.05, 0.17, 0.0),
+    ("trapezoidal", 2.0, 0.035, 0.145, 0.0),
+    ("trapezoidal", 1.6, 0.06, 0.185, MASS),
     ("quasi-sinusoidal", 0.35, 0.08, 0.0, 0.0),
     ("quasi-sinusoidal", 1.0, 0.05, 0.0, MASS),
 )
