@@ -21,13 +21,13 @@ from twin.kernels import composed_slots as k
 Float = NDArray[np.float64]
 MASS = 5.035
 SPEED, ACCELERATION = 1.0, 12.0
-#: shape, Hz, peak-to-peak stroke m, ramp s, added mass kg
+#: within the limits of the drive and, bouncing, of the guide: shape, Hz, peak-to-peak stroke m, ramp s, added mass kg
 CANDIDATES = (
     ("trapezoidal", 0.25, 0.06, 0.8, 0.0),
     ("trapezoidal", 1.25, 0.03, 0.20, 0.0),
-    ("trapezoidal", 1.6, 0.05, 0.17, 0.0),
-    ("trapezoidal", 2.0, 0.035, 0.145, 0.0),
-    ("trapezoidal", 1.6, 0.06, 0.185, MASS),
+    ("trapezoidal", 1.6, 0.035, 0.17, 0.0),
+    ("trapezoidal", 2.0, 0.025, 0.13, 0.0),
+    ("trapezoidal", 1.25, 0.03, 0.20, MASS),
     ("quasi-sinusoidal", 0.35, 0.08, 0.0, 0.0),
     ("quasi-sinusoidal", 1.0, 0.05, 0.0, MASS),
 )
