@@ -21,12 +21,19 @@ def resting(stand: Stand, state: str, found: Mapping[str, Any] | None = None) ->
             "name": name,
             "title": TITLES.get(name, name),
             "state": found.get(name, {}).get("state", state),
-            "detail": _link(instrument.link),
+            "detail": found.get(name, {}).get("problem") or _link(instrument.link),
             "latency": instrument.latency,
             "fields": _fields(name, found),
         }
         for name, instrument in stand.instruments.items()
     ]
+
+
+def problems(found: Mapping[str, Any]) -> str:
+    """Why devices can't be reached, in words; empty where all can."""
+    return ". ".join(
+        str(about["problem"]) for about in found.values() if isinstance(about, Mapping) and "problem" in about
+    )
 
 
 def running(stand: Stand, health: Health) -> list[dict[str, Any]]:

@@ -30,7 +30,7 @@ class Experiment:
 
     elapsed: s of the recording so far. run: the recording's name once it is closed. why: of a trip or a failure.
     latency: sample to published, {"p50", "p99"} s. dropped: live blocks that the tap let fall. note: what went
-    wrong beside the run, which goes on.
+    wrong beside the run, which goes on. passed: the phases so far.
     """
 
     id: str
@@ -48,6 +48,7 @@ class Experiment:
     latency: dict[str, float] | None = None
     dropped: int = 0
     note: str = ""
+    passed: tuple[str, ...] = ()
 
     @property
     def active(self) -> bool:
@@ -82,8 +83,15 @@ class Experiment:
         }
 
     def _phases(self) -> list[dict[str, str]]:
+        """Past, now, ahead; a phase that a stop left out was never there."""
         at = self.phases.index(self.phase) if self.phase in self.phases else -1
         if self.state is State.FINISHED:
             at = len(self.phases)
-        states = ["past" if k < at else "now" if k == at and self.active else "ahead" for k in range(len(self.phases))]
+        if not self.active and at >= 0:
+            at += 1
+        seen = {*self.passed, self.phase} if self.state is not State.FINISHED else set(self.phases)
+        states = [
+            "now" if k == at else "ahead" if k > at else "past" if name in seen else "skipped"
+            for k, name in enumerate(self.phases)
+        ]
         return [{"name": name, "state": state} for name, state in zip(self.phases, states, strict=True)]

@@ -69,7 +69,7 @@ class Follower:
 
     def _phase(self, event: Phase) -> None:
         state = State.RUNNING if self.experiment.state is State.STARTING else self.experiment.state
-        self.tell(phase=event.name, state=state)
+        self.tell(phase=event.name, state=state, passed=(*self.experiment.passed, event.name))
 
     def _progress(self, event: Progress) -> None:
         self.tell(elapsed=event.elapsed, dropped=event.dropped, latency=self.latency.quantiles())

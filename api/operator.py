@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from api.catalogue import model_names
-from api.devices import resting, running
+from api.devices import problems, resting, running
 from api.experiment import Experiment, State
 from api.follow import Follower
 from api.hub import Hub
@@ -148,10 +148,11 @@ class Operator:
         """Do a preparation step and wait for its end: {"message", "result"}."""
         self._take()
         try:
+            if step != "reset":
+                self._refuse_after_trip()
+            done = do_step(self.stand, step, distance)
             if step == "reset":
                 self._tripped = ""
-            self._refuse_after_trip()
-            done = do_step(self.stand, step, distance)
         finally:
             self._busy.release()
         self._look()
@@ -235,8 +236,9 @@ class Operator:
             return
         try:
             found = do_step(self.stand, "status")["result"]
-            state = "tripped" if self._tripped else "ready"
-            self._tell_stand(state, resting(self.stand, "ok", found), self._tripped)
+            missing = problems(found)
+            state = "tripped" if self._tripped else "disconnected" if missing else "ready"
+            self._tell_stand(state, resting(self.stand, "ok", found), self._tripped or missing)
         except Exception as error:
             self._tell_stand("disconnected", resting(self.stand, "disconnected"), str(error))
         finally:

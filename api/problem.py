@@ -45,7 +45,7 @@ class Conflict(StandError):
 
 _KINDS: tuple[tuple[type[StandError], str, str, int], ...] = (
     (NotFound, "/problems/not-found", "There is no such thing here", 404),
-    (Conflict, "/problems/conflict", "Not in this state", 409),
+    (Conflict, "/problems/conflict", "Not while the stand is in this state", 409),
     (InputError, "/problems/input", "The input can't be used", 422),
     (SafetyTrip, "/problems/trip", "The stand was stopped", 409),
     (DeviceError, "/problems/device", "A device didn't do it", 502),

@@ -11,7 +11,7 @@ class PhaseView(BaseModel):
     """One phase of a run."""
 
     name: str = Field(examples=["motion"])
-    state: str = Field(examples=["now"], description="past, now or ahead")
+    state: str = Field(examples=["now"], description="past, now, ahead; skipped where a stop left it out")
 
 
 class LatencyView(BaseModel):

@@ -36,8 +36,8 @@ export class Ring {
 
 export class Strip {
   // series: [{name, colour (a CSS variable), dash}], scale: factor to the shown unit, least: smallest shown range.
-  constructor(canvas, { series, scale, unit, least }) {
-    Object.assign(this, { canvas, series, scale, unit, least, seconds: 5, range: null, cursor: null });
+  constructor(canvas, { series, scale, least }) {
+    Object.assign(this, { canvas, series, scale, least, seconds: 5, range: null, cursor: null });
     this.rings = Object.fromEntries(series.map(({ name }) => [name, new Ring()]));
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
@@ -115,10 +115,9 @@ export class Strip {
     for (const tick of ticks(start, end, (box.right - box.left) / 80)) {
       const x = Math.round(X(tick.value)) + 0.5;
       stroke(pen, x, box.top, x, box.bottom);
-      if (x < box.right - 30) pen.fillText(tick.text, x, box.bottom + 4);
+      if (x < box.right - 56) pen.fillText(tick.text, x, box.bottom + 4);
     }
-    pen.textAlign = "right"; pen.fillText("s", box.right, box.bottom + 4);
-    pen.textAlign = "left"; pen.fillText(this.unit, box.left + 5, box.top + 1);
+    pen.textAlign = "right"; pen.fillText("time, s", box.right, box.bottom + 4);
   }
 
   line(pen, style, { name, colour, dash = [], weight = 1.6 }, X, Y, start) {

@@ -7,9 +7,9 @@ const simulated = (name) => ({ name, colour: "--simulated", weight: 1.25 });
 const at = (id) => document.getElementById(id);
 
 const strips = {
-  u: new Strip(at("chart-u"), { series: [measured("u"), simulated("u_sim")], scale: 1e3, unit: "mm", least: 0.002 }),
-  F: new Strip(at("chart-F"), { series: [measured("F"), simulated("F_sim")], scale: 1, unit: "N", least: 5 }),
-  x: new Strip(at("chart-x"), { series: [measured("x")], scale: 1e3, unit: "mm", least: 0.002 }),
+  u: new Strip(at("chart-u"), { series: [measured("u"), simulated("u_sim")], scale: 1e3, least: 0.002 }),
+  F: new Strip(at("chart-F"), { series: [measured("F"), simulated("F_sim")], scale: 1, least: 5 }),
+  x: new Strip(at("chart-x"), { series: [measured("x")], scale: 1e3, least: 0.002 }),
 };
 let dirty = true, frozen = false, now = {};
 

@@ -2,9 +2,9 @@
 import { post } from "./server.js";
 import { Live } from "./live.js";
 import { clearCharts, prepareCharts, pushBlock, redraw } from "./charts.js";
-import { prepareOrder, setRunning } from "./order.js";
+import { prepareOrder, setReady, setRunning } from "./order.js";
 import { allowPreparation, prepareStand, showStand } from "./stand.js";
-import { refreshRuns, showJob } from "./runs.js";
+import { allowNext as allow, refreshRuns, showJob } from "./runs.js";
 import { showScores } from "./scores.js";
 import { el, fixed } from "./format.js";
 
@@ -18,7 +18,7 @@ const onProblem = (problem) => { state.problem = problem; tell(); };
 new Live({
   connected() { state.connected = true; state.problem = null; refreshRuns(onProblem); tell(); },
   disconnected(retry) { state.connected = false; state.retry = retry; tell(); },
-  stand(message) { state.stand = message; showStand(message); tell(); },
+  stand(message) { state.stand = message; showStand(message); setReady(message.state); allowNext(); tell(); },
   experiment(message) { experiment(message); },
   block(message) { block(message); },
   job(message) { showJob(message, onProblem); },
@@ -31,6 +31,7 @@ function experiment(message) {
   state.experiment = message;
   state.lastBlock = performance.now();
   setRunning(ACTIVE.has(message.state) ? message.id : null);
+  allowNext();
   at("twin-name").textContent = message.model;
   at("progress").value = message.progress;
   at("phases").replaceChildren(...message.phases.map(({ name, state: when }) =>
@@ -50,6 +51,8 @@ function pill(element, text, tone) {
   if (element.textContent !== text) element.textContent = text;
   element.className = `pill ${tone}`;
 }
+
+function allowNext() { allow(!active() && state.stand?.state === "ready"); }
 
 function active() { return state.experiment && ACTIVE.has(state.experiment.state); }
 function stale() { return active() && state.experiment.streaming && performance.now() - state.lastBlock > 1000; }
@@ -76,9 +79,10 @@ function banner() {
   if (state.problem) return show("bad", state.problem.title || "That did not work.", state.problem.message, () => { state.problem = null; });
   if (run && state.dismissed !== key && (run.state === "tripped" || run.state === "failed" || run.state === "emergency-stopped"))
     return show("bad", run.state === "failed" ? "The experiment failed." : run.state === "tripped" ? "The stand was tripped and is stopped." : "Emergency stop: the stand is stopped.",
-      `${run.why || ""} Nothing resumes by itself.`, () => { state.dismissed = key; });
+      `${run.why ? `${run.why.replace(/\.$/, "")}. ` : ""}Nothing resumes by itself.`, () => { state.dismissed = key; });
   if (run?.note && run.state === "running") return show("warn", "The run goes on without its twin.", run.note);
-  if (state.stand?.state === "disconnected") return show("warn", "The stand is not connected.", state.stand.message || "");
+  if (state.stand?.state === "tripped" && !active()) return show("warn", "The stand stays stopped until it is reset.", `${state.stand.message ? `${state.stand.message}. ` : ""}See to the cause first; the reset is below, under Stand.`);
+  if (state.stand?.state === "disconnected") return show("warn", "The stand can't be reached.", state.stand.message || "");
   at("banner").hidden = true;
 }
 

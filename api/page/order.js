@@ -5,7 +5,8 @@ import { el, fixed, short } from "./format.js";
 
 const form = document.getElementById("order"), verdict = document.getElementById("verdict");
 const startButton = document.getElementById("start"), stopButton = document.getElementById("stop");
-let presets = [], chosen = null, valid = false, asked = 0, timer = 0, running = null;
+const hindrances = { tripped: "Reset first", disconnected: "Not connected", connecting: "Connecting" };
+let presets = [], chosen = null, valid = false, asked = 0, timer = 0, running = null, hindrance = "";
 
 export async function prepareOrder(onProblem) {
   form.addEventListener("input", (event) => { if (event.target.name !== "comment" && event.target.name !== "model") choose(null); later(); });
@@ -94,10 +95,12 @@ async function begin(onProblem) {
   try { await post("/experiments", order()); } catch (problem) { onProblem(problem); } finally { buttons(); }
 }
 
+export function setReady(condition) { hindrance = hindrances[condition] || ""; buttons(); }
+
 export function setRunning(identity) { running = identity; buttons(); }
 
 function buttons() {
-  startButton.disabled = !valid || Boolean(running);
+  startButton.disabled = !valid || Boolean(running) || Boolean(hindrance);
   stopButton.disabled = !running;
-  startButton.textContent = running ? "Running" : "Start";
+  startButton.textContent = running ? "Running" : hindrance || "Start";
 }

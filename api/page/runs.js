@@ -4,7 +4,13 @@ import { clock, correlation, dash, el, fixed, short } from "./format.js";
 
 const body = document.querySelector("#run-list tbody"), jobs = document.getElementById("jobs");
 const known = new Map();
-let pending = 0;
+let pending = 0, mayStart = false;
+
+// Whether the stand is free for the experiment that a diagnosis proposes.
+export function allowNext(allowed) {
+  mayStart = allowed;
+  for (const button of body.querySelectorAll("button.next")) button.disabled = !allowed;
+}
 
 export function refreshRuns(onProblem) {
   clearTimeout(pending);
@@ -48,8 +54,15 @@ function results(run, onProblem) {
   const ask = (text, path, payload) => el("button", { type: "button", onclick: () => post(path, payload).catch(onProblem) }, text);
   return el("td", {}, link(run.links["comparison-page"], "report") || (run.readable ? ask("compare", `/runs/${run.name}/comparison`) : null),
     link(run.links["diagnosis-page"], "diagnosis") || (run.readable ? ask("diagnose", "/diagnoses", { runs: [run.name] }) : null),
-    run.verdict?.next ? el("button", { type: "button", title: run.verdict.next, onclick: () => post(`/runs/${run.name}/next-experiment`).catch(onProblem) }, "run next") : null,
+    run.verdict?.next ? next(run, onProblem) : null,
     el("a", { href: run.links.file, download: `${run.name}.h5` }, "HDF5"));
+}
+
+function next(run, onProblem) {
+  const button = el("button", { type: "button", class: "next", title: run.verdict.next }, "run the next experiment");
+  button.disabled = !mayStart;
+  button.addEventListener("click", () => { button.disabled = true; post(`/runs/${run.name}/next-experiment`).catch(onProblem); });
+  return button;
 }
 
 export function showJob(job, onProblem) {
