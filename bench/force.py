@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import twin.models
-from stand.setup import nominal
+from stand.setup import Setup, nominal
 from twin.model import FibreModel, Start
 from twin.plugins import load
 
@@ -40,7 +40,7 @@ def trapezoid(stroke: float, frequency: float, acceleration: float, ramp: float,
     v = np.clip(np.minimum(acceleration * r, acceleration * (ramp - r)), 0.0, top)
     left = np.maximum(0.0, ramp - r)
     middle = 0.5 * acceleration * pulse**2 + top * (r - pulse)
-    s = np.where(r < pulse, 0.5 * acceleration * r * r, np.minimum(middle, stroke - 0.5 * acceleration * left**2))
+    s = np.where(r < pulse, 0.5 * acceleration * r * r, middle)
     s = np.where(left < pulse, stroke - 0.5 * acceleration * left**2, s)
     down = turn % 2 == 1
     return np.column_stack((np.where(down, stroke - s, s), np.where(down, -v, v)))
@@ -60,9 +60,9 @@ def taut() -> Iterator[Float]:
         yield np.column_stack((a * (1.0 - np.cos(w * time)), a * w * np.sin(w * time)))
 
 
-def run(table: Float, tolerance: float, dt: float = DT) -> tuple[Float, float]:
+def run(table: Float, tolerance: float, dt: float = DT, setup: Setup = SETUP) -> tuple[Float, float]:
     """u, u', F and s of computing, the least of three."""
-    k = FORCE.constants(SETUP, {"tolerance": tolerance})
+    k = FORCE.constants(setup, {"tolerance": tolerance})
     out, times = np.empty((len(table) - 1, 3)), []
     for _ in range(3):
         state, began = FORCE.start(k, Start()), time.perf_counter()
@@ -149,10 +149,10 @@ def main() -> None:
     options = parser.parse_args()
     FORCE.warm()
     rows = {
-        "force, taut, 10 s (<= 2 ms, 1e-8)": single(taut(), 1e-10, options.reference),
+        "force, taut, 10 s (<= 2 ms, 1e-8)": single(taut(), 1e-8, options.reference),
         "force, snatch, 10 s (<= 10 ms, 2e-4; goal 5 ms)": single(snatching(), 1e-13, options.reference),
-        "many runs, taut at 1e-6 (>= 1500/s)": many(taut(), 1e-7),
-        "many runs, snatch at 2e-4 (>= 400/s)": many(snatching(), 1e-11),
+        "many runs, taut at 1e-6 (>= 1500/s)": many(taut(), 1e-6),
+        "many runs, snatch at 2e-4 (>= 400/s)": many(snatching(), 1e-12),
         "streaming R, blocks of 20 (<= 150 ns, goal 50; 1e-12)": streaming(),
     }
     for job, row in rows.items():

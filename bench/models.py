@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator, Mapping
-from importlib.util import find_spec
+from collections.abc import Iterator, Mapping
 from statistics import median
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import twin.models
 from bench.force import DT, snatching
+from bench.row import Row, row
 from stand.setup import Setup, nominal
 from twin.model import FibreModel, Start
 from twin.plugins import load
 
 Float = NDArray[np.float64]
-Row = dict[str, Any]
 AMPLITUDE, OMEGA = 0.015, 2 * math.pi
+STEP = 2.5e-4  # s, of the ANCF rows
 
 
 def taut(seconds: float) -> Float:
@@ -49,17 +48,14 @@ def error(name: str, setup: Setup, drive: Float, parameters: Mapping[str, float]
     return float(np.abs(out[:, 0] - fine[:, 0]).max() / np.ptp(fine[:, 0]))
 
 
-def row(job: str, peer: str, ratio: float | None, found: float | None, note: str = "") -> Row:
-    """One line of the table; ratio: times faster than the peer."""
-    return {"job": job, "peer": peer, "ratio": ratio, "error": found, "note": note}
-
-
 def point_mass() -> Iterator[Row]:
     """Taut against real time and Exudyn; slack and snatch against real time."""
+    from bench import exudyn_rows
+
     drive, setup = taut(10.0), nominal()
     out, seconds = run("point-mass", setup, drive, {})
     yield row("point mass 7, taut", "real time", 10.0 / seconds, error("point-mass", setup, drive, {}, out))
-    yield against_exudyn()
+    yield from exudyn_rows.point_mass()
     times, slack = [], []
     for case in list(snatching())[:5]:
         out, seconds = run("point-mass", setup, case, {}, 2)
@@ -69,63 +65,43 @@ def point_mass() -> Iterator[Row]:
     yield row("point mass 7, slack and snatch", "real time", median(times), window_error("point-mass"), note)
 
 
-def window_error(name: str) -> float:
+def window_error(name: str, parameters: Mapping[str, float] | None = None) -> float:
     """Error of u over the first tenth of a second of slack and snatch, as a share of u's range (chaos comes later)."""
     case = next(iter(snatching()))
     part = np.ascontiguousarray(case[: round(1.6 / DT)])
-    out, _ = run(name, nominal(), part, {}, 1)
+    own = dict(parameters or {})
+    out, _ = run(name, nominal(), part, own, 1)
     slack = np.flatnonzero(out[:, 2] < 0.5)
     end = int(slack[0]) + round(0.1 / DT)
-    return error(name, nominal(), np.ascontiguousarray(part[: end + 1]), {}, out[:end])
-
-
-def against_exudyn() -> Row:
-    """The same frictionless chain in both, Exudyn at the step that gives our error."""
-    job, peer = "point mass 7, taut, frictionless", "exudyn"
-    if find_spec("exudyn") is None:
-        return row(job, peer, None, None, "exudyn is not installed: `make bench` brings it")
-    from bench.exudyn_chain import solve
-
-    setup, parameters, seconds = nominal().with_values(guide_friction=0.0), {"pulley_friction": 0.0}, 4.0
-    drive = taut(seconds)
-    ours, computing = run("point-mass", setup, drive, parameters)
-    fine, _ = run("point-mass", setup, drive, {**parameters, "step": DT / 32}, 1)
-    mine = float(np.abs(ours[:, 0] - fine[:, 0]).max() / np.ptp(fine[:, 0]))
-    model = load(twin.models, "point-mass", FibreModel)
-    c = model.constants(setup, parameters)
-    nodes, grid = model.start(c, Start())[2:16].reshape(-1, 2), np.arange(1, len(drive)) * DT
-    found, theirs, step = math.inf, math.inf, 2 * DT
-    while found > mine and step > DT / 16:
-        step /= 2
-        data, theirs = solve(c, nodes, AMPLITUDE, OMEGA, seconds, step)
-        found = float(np.abs(np.interp(grid, data[:, 0], data[:, 1]) - fine[:, 0]).max() / np.ptp(fine[:, 0]))
-    note = f"exudyn {found:.1e} at {step * 1e6:.0f} us, {seconds / theirs:.0f}x real time"
-    return row(job, peer, theirs / computing, mine, note)
+    return error(name, nominal(), np.ascontiguousarray(part[: end + 1]), own, out[:end])
 
 
 def ancf() -> Iterator[Row]:
-    """Taut and snatch against real time, and the cost over the number of elements."""
-    setup, drive = nominal(), taut(2.0)
-    out, seconds = run("ancf", setup, drive, {})
-    yield row("ANCF 18, taut", "real time", 2.0 / seconds, error("ancf", setup, drive, {}, out))
-    case = np.ascontiguousarray(next(iter(snatching()))[: round(4.0 / DT) + 1])
-    out, seconds = run("ancf", setup, case, {}, 1)
+    """Taut and snatch against real time at 250 us, Exudyn, and the cost over the number of elements."""
+    from bench import exudyn_rows
+
+    setup, drive, fine = nominal(), taut(10.0), {"step": STEP}
+    out, seconds = run("ancf", setup, drive, fine)
+    found = error("ancf", setup, drive[:4001], fine, out[:4000])
+    yield row("ANCF 18 at 250 us, taut", "real time", 10.0 / seconds, found, "error over the first 2 s")
+    yield from exudyn_rows.ancf()
+    case = next(iter(snatching()))
+    out, seconds = run("ancf", setup, case, fine, 2)
     note = f"slack {100 * float(np.mean(out[:, 2] < 0.5)):.0f} % of the time"
-    yield row("ANCF 18, slack and snatch", "real time", 4.0 / seconds, window_error("ancf"), note)
-    costs, errors = {}, math.nan
-    for elements in (18, 36, 72, 144):
-        own = {"elements": elements, "fine_elements": round(elements * 14 / 18)}
-        part = np.ascontiguousarray(drive[:1001])
-        out, seconds = run("ancf", setup, part, own, 2)
-        costs[elements] = 1e6 * seconds / len(out) / elements
-        errors = error("ancf", setup, part, own, out) if elements == 144 else errors
-    spread = ", ".join(f"{n}: {cost:.1f}" for n, cost in costs.items())
-    ratio = DT * 1e6 / (costs[144] * 144)
-    yield row("ANCF 144, taut", "real time", ratio, errors, f"us per sample and element: {spread}")
+    yield row("ANCF 18 at 250 us, slack and snatch", "real time", 10.0 / seconds, window_error("ancf", fine), note)
+    yield from elements(setup, np.ascontiguousarray(drive[:2001]))
 
 
-def fresh(measure: Callable[[str], float]) -> Iterator[Row]:
-    """A fresh process, cache warm, to its first result; ratio: one second over what it takes."""
-    for name in ("force", "point-mass", "ancf"):
-        seconds = measure(name)
-        yield row(f"fresh process, {name}", "1 s", 1.0 / seconds, None, f"{seconds:.2f} s; no error applies")
+def elements(setup: Setup, drive: Float) -> Iterator[Row]:
+    """Cost per sample and element from 18 to 144 elements, at the model's own step."""
+    costs, last = {}, (math.nan, math.nan)
+    for count in (18, 36, 72, 144):
+        own = {"elements": count, "fine_elements": round(count * 10 / 18)}
+        out, seconds = run("ancf", setup, drive, own, 2)
+        costs[count] = 1e6 * seconds / len(out) / count
+        if count == 144:
+            last = (len(out) * DT / seconds, error("ancf", setup, drive[:501], own, out[:500]))
+    spread = ", ".join(f"{n}: {cost:.2f}" for n, cost in costs.items())
+    yield row("ANCF 144, taut", "real time", *last, f"us per sample and element: {spread}")
+    least, most = min(costs.values()), max(costs.values())
+    yield row("ANCF, cost over elements", "linear", least / most, last[1], "least over most cost per element")
