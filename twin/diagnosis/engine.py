@@ -20,7 +20,7 @@ from twin.diagnosis.following import following
 from twin.diagnosis.found import Evidence, Step
 from twin.diagnosis.hum import find
 from twin.diagnosis.problem import Problem
-from twin.diagnosis.rivals import Standing, standings
+from twin.diagnosis.rivals import Standing, settle
 from twin.diagnosis.run import choose, prepare
 from twin.diagnosis.search import Search, backward, calibrate, error, forward
 from twin.diagnosis.tell import tell
@@ -70,7 +70,7 @@ def diagnose(
     search = forward(trained, calibrate(trained), able, progress)
     progress("checking", 0.75)
     backward(search)
-    ranks = standings(search, able)
+    ranks = settle(search, able)
     progress("looking beyond the catalogue", 0.82)
     beyond = look(search)
     if beyond is not None and beyond.learned:
@@ -147,7 +147,7 @@ def confirm(problem: Problem, search: Search, notes: list[str]) -> Evidence:
 def fixed(problem: Problem, fitted: Fitted, *, stated: bool = False) -> Fitted:
     """The fit's model on other windows, only their starts fitted; `stated`: with the setup's values as they are."""
     z = fitted.model.zero() if stated else fitted.z
-    return fit(problem, fitted.model, z, iterations=3, fixed=np.ones(len(z), bool))
+    return fit(problem, fitted.model, z, iterations=2, fixed=np.ones(len(z), bool))
 
 
 def _pair(problem: Problem, fitted: Fitted) -> tuple[float, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,8 @@ FLOOR = 0.4
 STEP = 0.02
 START_STEP = 0.1
 FAR = 8.0
+STATED = ("base", "run")
+BASE_EVERY, BEGIN_EVERY = 4, 2
 
 
 @dataclass(frozen=True)
@@ -79,31 +82,59 @@ def prior_cost(model: Composition, z: Float, starts: Float) -> float:
 
 
 def linearise(
-    problem: Problem, fitted: Fitted, spread: Float, free: NDArray[np.bool_], known: Linear | None = None
+    problem: Problem,
+    fitted: Fitted,
+    spread: Float,
+    free: NDArray[np.bool_],
+    known: Linear | None = None,
+    *,
+    base: bool = True,
+    begin: bool = True,
 ) -> Linear:
-    """Forward differences in every free coordinate and in the starts; base columns from `known` where given."""
+    """Forward differences in every free coordinate and in the starts.
+
+    From `known`, an earlier linearisation of the same model, base values' columns stay unless `base` asks for new ones,
+    the starts' unless `begin` does; the causes' are always new.
+    """
     model, z, starts = fitted.model, fitted.z, fitted.starts
     root = np.sqrt(weigh(fitted.residual, spread)) / spread * problem.windows.use
     here = problem.predict(model, z, starts)
     flat = len(problem.windows), -1
+    again = np.ones(1) if known is None else np.nan_to_num(root.reshape(flat) / known.root)
 
     def column(there: Float, step: float) -> Float:
         slope: Float = np.clip((there - here) / step, -1e9, 1e9) * root
         return np.nan_to_num(slope).reshape(flat)
 
-    parts = []
-    for axis in range(4):
-        moved = starts.copy()
-        moved[:, axis] += START_STEP
-        parts.append(column(problem.predict(model, z, moved), START_STEP))
-    renew = free if known is None else free & np.array([c.owner not in ("base", "run") for c in model.coordinates])
+    if known is None or begin:
+        own = np.array([column(problem.predict(model, z, _moved(starts, a)), START_STEP) for a in range(4)])
+    else:
+        own = known.starts * again
+    renew = free if known is None or base else free & np.array([c.owner not in STATED for c in model.coordinates])
     columns = _globals(problem, fitted, renew, column)
     if known is not None:
         kept = free & ~renew
-        columns[kept] = known.columns[kept] * np.nan_to_num(root.reshape(flat) / known.root)
+        columns[kept] = known.columns[kept] * again
     weighted = (fitted.residual * root).reshape(flat)
     prior = np.array([1.0 / c.prior**2 for c in model.coordinates])
-    return Linear(columns, np.array(parts), weighted, prior, np.maximum(root.reshape(flat), 1e-30))
+    return Linear(columns, own, weighted, prior, np.maximum(root.reshape(flat), 1e-30))
+
+
+def _moved(starts: Float, axis: int) -> Float:
+    moved = starts.copy()
+    moved[:, axis] += START_STEP
+    return moved
+
+
+def carried(linear: Linear, before: Composition, model: Composition, keep: NDArray[np.intp]) -> Linear:
+    """A linearisation as one of another model on some of the windows; columns that the first has not are 0."""
+    place = {(c.owner, c.name, c.run): i for i, c in enumerate(before.coordinates)}
+    columns = np.zeros((len(model.coordinates), len(keep), linear.residual.shape[1]))
+    for i, c in enumerate(model.coordinates):
+        if (c.owner, c.name, c.run) in place:
+            columns[i] = linear.columns[place[c.owner, c.name, c.run]][keep]
+    prior = np.array([1.0 / c.prior**2 for c in model.coordinates])
+    return Linear(columns, linear.starts[:, keep], linear.residual[keep], prior, linear.root[keep])
 
 
 def _globals(problem: Problem, fitted: Fitted, free: NDArray[np.bool_], column) -> Float:  # type: ignore[no-untyped-def]
@@ -188,37 +219,55 @@ def fit(
     fixed: NDArray[np.bool_] | None = None,
     tolerance: float = 2e-4,
     reach: float = 12.0,
+    known: Linear | None = None,
 ) -> Fitted:
-    """Minimise the robust cost from z and starts; `fixed` coordinates stay."""
+    """Minimise the robust cost from z and starts; `fixed` coordinates stay. known: a linearisation there, if there is
+    one.
+
+    What changes slowly is differenced anew every few turns only, and where a step fails or hardly gains.
+    """
     starts = np.zeros((len(problem.windows), 4)) if starts is None else starts
     low = np.array([c.low for c in model.coordinates])
     high = np.array([c.high for c in model.coordinates])
     free = np.ones(len(z), bool) if fixed is None else ~fixed
     left = residual(problem, model, z, starts)
     fitted = Fitted(model, z, starts, left, 0.0)
-    damping, reduced, linear = 1e-6, None, None
-    for turn in range(iterations):
+    damping, reduced, linear = 1e-6, None, known
+    age, anew = 0, False
+    for _ in range(iterations):
         spread = scale(problem, fitted.residual)
         cost = loss(fitted.residual, spread) + prior_cost(model, fitted.z, fitted.starts)
-        known: Linear | None = linear if turn % 2 else None
-        linear = linearise(problem, fitted, spread, free, known)
+        anew = anew or linear is None or age >= BASE_EVERY
+        begin = anew or (age % BEGIN_EVERY == 0 and age > 0)
+        age = 1 if anew else age + 1
+        linear = linearise(problem, fitted, spread, free, linear, base=anew, begin=begin)
         reduced = reduce(linear, fitted.starts, fitted.z)
-        better = None
-        for _ in range(4):
-            step = np.clip(solve(reduced, fitted.z, low, high, free, damping), -reach, reach)
-            z_new = np.clip(fitted.z + step, low, high)
-            starts_new = np.clip(fitted.starts + reduced.follow(z_new - fitted.z), -FAR, FAR)
-            left = residual(problem, model, z_new, starts_new)
-            new = loss(left, spread) + prior_cost(model, z_new, starts_new)
-            if new < cost:
-                better = replace(fitted, z=z_new, starts=starts_new, residual=left, cost=new)
-                damping = max(damping / 30, 1e-8)
-                break
-            damping *= 100
+        better, damping = _descend(problem, fitted, reduced, spread, cost, (low, high, free, reach), damping)
         if better is None:
-            break
+            if anew:
+                break
+            anew = True
+            continue
         gained = (cost - better.cost) / max(cost, 1e-9)
         fitted = better
-        if gained < tolerance and (known is None or gained < 0.1 * tolerance):
+        if gained < tolerance and (anew or gained < 0.1 * tolerance):
             break
+        anew = gained < tolerance
     return replace(fitted, information=None if reduced is None else reduced.matrix)
+
+
+def _descend(
+    problem: Problem, fitted: Fitted, reduced: Reduced, spread: Float, cost: float, box: Any, damping: float
+) -> tuple[Fitted | None, float]:
+    """A step that lowers the cost, as little damped as does, and the damping to go on with; None where none does."""
+    low, high, free, reach = box
+    for _ in range(4):
+        step = np.clip(solve(reduced, fitted.z, low, high, free, damping), -reach, reach)
+        z = np.clip(fitted.z + step, low, high)
+        starts = np.clip(fitted.starts + reduced.follow(z - fitted.z), -FAR, FAR)
+        left = residual(problem, fitted.model, z, starts)
+        new = loss(left, spread) + prior_cost(fitted.model, z, starts)
+        if new < cost:
+            return replace(fitted, z=z, starts=starts, residual=left, cost=new), max(damping / 30, 1e-8)
+        damping *= 100
+    return None, damping

@@ -11,11 +11,13 @@ from twin.causes._kind import Cause
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.fit import Fitted, fit, loss, scale
 from twin.diagnosis.score import score
-from twin.diagnosis.search import Search, begin, error, prior_price, without
+from twin.diagnosis.search import Search, backward, begin, error, prior_price, without
 
 TEMPER = 8.0
 ALIKE = 40.0
 MOST = 4
+SWAPS = 3
+CLEARLY = 30.0
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,21 @@ class Standing:
 def standings(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
     """Each found cause against its rivals, refitted in its place."""
     return [_standing(search, cause, catalogue) for cause in search.current.model.causes]
+
+
+def settle(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
+    """Standings once no rival does better in a cause's place: one that does takes it, and what that makes needless
+    goes.
+    """
+    for _ in range(SWAPS):
+        ranks = standings(search, catalogue)
+        better = [(d, r.fits[n]) for r in ranks for n, d in r.behind.items() if d < -CLEARLY]
+        if not better:
+            return ranks
+        search.current = min(better, key=lambda pair: pair[0])[1]
+        search.ladder.append(search.current)
+        backward(search)
+    return standings(search, catalogue)
 
 
 def _standing(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> Standing:
@@ -60,8 +77,7 @@ def _candidates(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> lis
             left = float(error(search.problem, f.residual).max())
             if left < 4.0 * final + 2.0:
                 near[causes[-1]] = min(left, near.get(causes[-1], np.inf))
-    declared = [r for r in cause.rivals if r in near or final < 1.5]
-    order = list(dict.fromkeys([*sorted(near, key=lambda n: near[n])[:2], *declared]))
+    order = list(dict.fromkeys([*sorted(near, key=lambda n: near[n])[:2], *cause.rivals]))
     known = {c.name: c for c in catalogue}
     return [known[n] for n in order if n in known and n not in named][:MOST]
 

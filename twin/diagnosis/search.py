@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,17 +13,18 @@ from twin.causes._kind import Cause
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.coordinates import NO_FRICTION
 from twin.diagnosis.direct import screen
-from twin.diagnosis.fit import Fitted, fit, loss, scale
+from twin.diagnosis.fit import Fitted, Linear, carried, fit, linearise, loss, scale
 from twin.diagnosis.precision import covariance
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.score import Scored, score, survey
 
 Float = NDArray[np.float64]
+Index = NDArray[np.intp]
 SHORT_LIST = 7
 FINALISTS = 3
 MOST = 4
 NEEDED = 0.012
-NEEDED_MORE = 0.02
+NEEDED_MORE = 0.012
 NOISE = 1.12
 LARGE = 25.0
 WILD = 25.0
@@ -45,9 +46,9 @@ class Search:
     ladder: list[Fitted] = field(default_factory=list)
 
 
-def error(problem: Problem, left: Float) -> Float:
+def error(problem: Problem, left: Float, wild: float = WILD) -> Float:
     """Squared short-window error in the sensors' noise, per channel [2]: the mean over the windows that have the
-    channel, the wildest tenth capped where it passes WILD.
+    channel, the wildest tenth capped where it passes `wild`.
     """
     squares = (left / problem.sigma[:, None, :]) ** 2
     count = problem.windows.use.sum(axis=1)
@@ -57,7 +58,7 @@ def error(problem: Problem, left: Float) -> Float:
     for c in range(2):
         mine = each[has[:, c], c]
         if len(mine):
-            mean[c] = np.minimum(mine, max(float(np.percentile(mine, 90)), WILD)).mean()
+            mean[c] = np.minimum(mine, max(float(np.percentile(mine, 90)), wild)).mean()
     return mean
 
 
@@ -102,13 +103,16 @@ def try_causes(
     """Refits of the most promising causes, best first; those far behind are only begun."""
     begun: list[Fitted] = []
     settled: set[str] | None = None
+    keep = telling(problem, fitted)
+    few, part = problem.part(keep), _part(fitted, keep)
+    slopes = linearise(problem, fitted, scale(problem, fitted.residual), np.ones(len(fitted.z), bool))
     for s, plain in _interleaved(scored, direct):
         if settled is not None and s.cause.name not in settled and (plain or s.gain < 0.5 * scored[0].gain):
             continue
-        begun.append(_begin_fit(problem, fitted, s, plain, quick))
-        if settled is None and error(problem, begun[-1].residual).max() < NOISE:
+        begun.append(_begin_fit(few, part, s, plain, quick, (slopes, keep)))
+        if settled is None and error(few, begun[-1].residual).max() < NOISE:
             settled = set(s.cause.rivals)
-    begun = ranked(problem, begun)
+    begun = [_whole(problem, fitted, f, keep) for f in ranked(few, begun)]
     done: list[Fitted] = []
     for f in begun[:FINALISTS]:
         if done and _behind(problem, f, done[0]):
@@ -116,6 +120,34 @@ def try_causes(
         done = ranked(problem, [*done, fit(problem, f.model, f.z, f.starts, iterations=long)])
     names = {_last(f) for f in done}
     return done + [f for f in begun if _last(f) not in names]
+
+
+def telling(problem: Problem, fitted: Fitted, share: int = 2) -> Index:
+    """Half of the windows (or another share): those that the fit misses most, and others evenly."""
+    each = misses(problem, fitted).max(axis=1)
+    count = len(each) // share
+    worst = np.argsort(-each)[: count // 2]
+    rest = np.setdiff1d(np.arange(len(each)), worst)
+    chosen = rest[np.unique(np.linspace(0, len(rest) - 1, max(count - len(worst), 1)).round().astype(int))]
+    return np.union1d(worst, chosen)
+
+
+def misses(problem: Problem, fitted: Fitted) -> Float:
+    """Squared error of every window in the sensors' noise [w, 2]."""
+    squares: Float = ((fitted.residual / problem.sigma[:, None, :]) ** 2).sum(axis=1)
+    each: Float = squares / np.maximum(problem.windows.use.sum(axis=1), 1)
+    return each
+
+
+def _part(fitted: Fitted, keep: Index) -> Fitted:
+    return replace(fitted, starts=fitted.starts[keep], residual=fitted.residual[keep])
+
+
+def _whole(problem: Problem, before: Fitted, part: Fitted, keep: Index) -> Fitted:
+    """A fit on some windows as one on all: the others' starts are settled by themselves."""
+    starts = before.starts.copy()
+    starts[keep] = part.starts
+    return fit(problem, part.model, part.z, starts, iterations=2, fixed=np.ones(len(part.z), bool))
 
 
 def _interleaved(scored: Sequence[Scored], direct: Sequence[Scored]) -> list[tuple[Scored, bool]]:
@@ -126,10 +158,13 @@ def _interleaved(scored: Sequence[Scored], direct: Sequence[Scored]) -> list[tup
     return order[:10] if direct else order
 
 
-def _begin_fit(problem: Problem, fitted: Fitted, scored: Scored, plain: bool, quick: int) -> Fitted:
+def _begin_fit(
+    problem: Problem, fitted: Fitted, scored: Scored, plain: bool, quick: int, slopes: tuple[Linear, Index]
+) -> Fitted:
     model, z = begin(fitted, scored)
     if not plain:
-        return fit(problem, model, z, fitted.starts, iterations=quick)
+        known = carried(slopes[0], fitted.model, model, slopes[1])
+        return fit(problem, model, z, fitted.starts, iterations=quick, known=known)
     if not fitted.model.causes:
         stated = np.array([c.owner in ("base", "run") for c in model.coordinates])
         z = np.where(stated, 0.0, z)
@@ -185,12 +220,10 @@ def forward(problem: Problem, base: Fitted, causes: Sequence[Cause], progress: C
 
 def _direct(problem: Problem, fitted: Fitted, causes: Sequence[Cause]) -> list[Scored]:
     """The direct screen where something large is wrong: on the windows that miss most and on others, evenly."""
-    squares = (fitted.residual / problem.sigma[:, None, :]) ** 2
-    each = (squares.sum(axis=1) / np.maximum(problem.windows.use.sum(axis=1), 1)).max(axis=1)
+    each = misses(problem, fitted).max(axis=1)
     if error(problem, fitted.residual).max() < LARGE and np.sum(each > LARGE) < FEW:
         return []
-    worst = np.argsort(-each)[: len(each) // 6]
-    few = problem.part(np.union1d(worst, np.arange(0, len(each), 5)))
+    few = problem.part(telling(problem, fitted, 3))
     z = fitted.z if fitted.model.causes else fitted.model.zero()
     return screen(few, fitted.model, z, causes)[:SHORT_LIST]
 

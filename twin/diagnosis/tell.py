@@ -18,7 +18,7 @@ from twin.diagnosis.fit import Fitted
 from twin.diagnosis.found import Evidence
 from twin.diagnosis.hum import Hum
 from twin.diagnosis.latent import PLACES
-from twin.diagnosis.precision import covariance
+from twin.diagnosis.precision import covariance, stated
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.rivals import Standing
 from twin.diagnosis.score import Scored
@@ -134,6 +134,8 @@ def _cause(found: Evidence, search: Search, cause: Cause, spread: Any, rank: Sta
     for p in cause.parameters:
         i = fitted.model.index[("base", cause.base)] if cause.base else fitted.model.index[(cause.name, p.name)]
         std = math.sqrt(max(float(spread[i, i]), 0.0)) * fitted.model.coordinates[i].scale
+        null = p.value if p is cause.parameters[0] else 0.0
+        std = stated(std, abs(values[p.name] - null), _of_setup(fitted, cause))
         factor = conversion(p.unit, p.unit)
         parameters[p.name] = {"value": values[p.name] / factor, "std": std / factor, "units": p.unit}
     strength = _strength(search, cause)
@@ -148,6 +150,15 @@ def _cause(found: Evidence, search: Search, cause: Cause, spread: Any, rank: Sta
         "strength": strength,
         "evidence": [_sentence(cause, parameters, strength)],
     }
+
+
+def _of_setup(fitted: Fitted, cause: Cause) -> float:
+    """What the setup's other values leave open in a base value: only J/r^2 moves anything."""
+    setup = fitted.model.setups[0]
+    if cause.base != "pulley_inertia" or setup.pulley_radius <= 0.0:
+        return 0.0
+    inertia = fitted.model.setup(fitted.z, 0).pulley_inertia
+    return 2.0 * setup.sigma("pulley_radius") / setup.pulley_radius * inertia
 
 
 def _limited(cause: Json, limit: Clip) -> None:

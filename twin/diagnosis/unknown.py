@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from twin.diagnosis.composition import Composition
-from twin.diagnosis.fit import Fitted, fit, scale, weigh
-from twin.diagnosis.latent import Term, as_cause, terms
+from twin.diagnosis.fit import Fitted, fit, loss, scale, weigh
+from twin.diagnosis.latent import PRICE, Term, as_cause, terms
 from twin.diagnosis.problem import Problem
-from twin.diagnosis.search import Search, error, without
+from twin.diagnosis.search import Search, error, prior_price, without
 
 ENOUGH = 1.10
 SHARE = 0.10
@@ -31,8 +31,7 @@ class Unknown:
 def look(search: Search) -> Unknown | None:
     """The latent term, or None where the catalogue's model leaves hardly more than noise."""
     problem, final = search.problem, search.current
-    left = error(problem, final.residual)
-    if left.max() < ENOUGH:
+    if error(problem, final.residual, wild=0.0).max() < ENOUGH:  # a single wild window is no structure
         return None
     candidates = [c for c in (_best(problem, f) for f in _beginnings(search)) if c is not None]
     if not candidates:
@@ -93,11 +92,21 @@ def _choose(search: Search, candidates: list[Unknown]) -> Unknown | None:
     catalogue = float(error(problem, search.current.residual).max())
     alone = [c for c in candidates if not {k.name for k in c.fitted.model.causes} - {"unknown"}]
     beside = [c for c in candidates if c not in alone]
-    if alone and (_left(problem, alone[0]) < 1.1 * catalogue or not search.current.model.causes):
+    if alone and (not search.current.model.causes or _better(problem, alone[0], search.current)):
         return alone[0]
     if beside and 1.0 - _left(problem, beside[0]) / catalogue > SHARE:
         return beside[0]
     return None
+
+
+def _better(problem: Problem, alone: Unknown, catalogue: Fitted) -> bool:
+    """Whether the base with a learned term explains more than the catalogue's causes, each knot at its price."""
+    if not alone.learned:
+        return False
+    spread = np.minimum(scale(problem, alone.fitted.residual), scale(problem, catalogue.residual))
+    price = PRICE * len(alone.term.x)
+    mine = loss(alone.fitted.residual, spread) + price
+    return mine < loss(catalogue.residual, spread) + prior_price(catalogue)
 
 
 __all__ = ["Unknown", "look", "without"]
