@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
+import twin.models
 import twin.rigs
 from stand.errors import InputError
 from stand.setup import check
-from tests.twin.fibre_runs import held, run
+from tests.twin.fibre_runs import DT, held, pull, run, sine, trapezoid
+from twin.model import FibreModel, Start
 from twin.plugins import every, load
 from twin.rigs import Rig, friction_factor, release, rest_tension, strand
 
@@ -61,9 +64,52 @@ def test_a_release_needs_the_weight_fibre_rig_and_a_height_it_has() -> None:
         release(rig("symmetric").setup(), 0.02)
 
 
-@pytest.mark.parametrize("name", ["point-mass", "ritz"])
+@pytest.mark.parametrize("name", ["force", "point-mass", "ritz"])
 def test_on_the_asymmetric_rig_the_fibre_carries_the_weight_over_its_cosine(name: str) -> None:
     setup = rig("asymmetric").setup().with_values(guide_friction=0.0)
     out = run(name, setup, *held(1.0))
     assert out[-1, 2] == pytest.approx(rest_tension(setup), abs=setup.fibre_mass * setup.gravity)
     assert abs(out[-1, 0]) < 1e-5
+
+
+def test_on_the_asymmetric_rig_the_force_model_moves_as_the_fibres_with_mass_do() -> None:
+    """Ritz leaves the arc out as the force model does; the friction that the sideways pull adds is in both."""
+    setup, (x, w) = rig("asymmetric").setup(), sine(1.0, 0.06, 1.0)
+    force, ritz, points = (run(name, setup, x, w) for name in ("force", "ritz", "point-mass"))
+    assert np.abs(force[:, 0] - ritz[:, 0]).max() < 1e-4 * np.ptp(force[:, 0])
+    assert np.abs(force[:, 0] - points[:, 0]).max() < 1e-3 * np.ptp(force[:, 0])
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_pulled_steadily_the_asymmetric_guide_rubs_by_what_the_fibre_presses_sideways(sign: float) -> None:
+    setup = rig("asymmetric").setup()
+    x, w = pull(0.05, 0.05)
+    out = run("force", setup, sign * x, sign * w)
+    u, tension = float(out[-1, 0]), float(out[-1, 2])
+    rubs = tension * strand(setup).cosine(u) - setup.rest_tension
+    expected = sign * setup.guide_friction * friction_factor(setup, tension, u)
+    assert rubs == pytest.approx(expected, abs=0.01)
+    assert abs(expected) > 1.01 * setup.guide_friction
+
+
+def test_a_vanishing_offset_is_none() -> None:
+    """Two integrators of one model: steps of order 4 with located switches, and series with propagators."""
+    setup, (x, w) = rig("symmetric").setup(), trapezoid(1.0, 0.02, 2.0, 0.125)
+    none, tiny = run("force", setup, x, w), run("force", setup.with_values(lateral_offset=1e-9), x, w)
+    assert np.mean(none[:, 2] == 0.0) > 0.1
+    assert np.abs(none[:, 0] - tiny[:, 0]).max() < 1e-6 * np.ptp(none[:, 0])
+
+
+def test_a_run_on_the_asymmetric_rig_split_anywhere_gives_the_same_bits() -> None:
+    chosen, setup, (x, w) = (
+        load(twin.models, "force-both", FibreModel),
+        rig("asymmetric").setup(),
+        trapezoid(0.6, 0.02, 2.0, 0.125),
+    )
+    drive, k = np.stack([x, w], axis=1), chosen.constants(setup, {})
+    whole, parts, state = np.empty((len(x) - 1, 3)), np.empty((len(x) - 1, 3)), chosen.start(k, Start())
+    chosen.advance(k, chosen.start(k, Start()), drive, DT, whole)
+    for a in range(0, len(x) - 1, 37):
+        b = min(a + 37, len(x) - 1)
+        chosen.advance(k, state, np.ascontiguousarray(drive[a : b + 1]), DT, parts[a:b])
+    assert np.array_equal(whole, parts)

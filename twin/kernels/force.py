@@ -19,6 +19,7 @@ from twin.kernels.force_layout import (
     CREEPS,
     DAMPING_SLOPE,
     DRY_SPEED,
+    OFFSET,
     RATIO1,
     RATIO2,
     REST,
@@ -31,6 +32,7 @@ from twin.kernels.force_layout import (
 )
 from twin.kernels.force_leap import leap
 from twin.kernels.force_linear import INPUTS, SLOTS, place_drive, propagator, slot_of
+from twin.kernels.force_offset import advance_offset, reach
 from twin.kernels.force_series import (
     COLUMNS,
     CREEPING,
@@ -80,9 +82,10 @@ def settle(k, y, x, w):
     single = k[RIM] == 0.0
     speed = y[1] if k[SIGNED] != 0.0 else abs(y[1])
     y[6] = 1.0 if speed > k[THRESHOLD] else 0.0
+    near, cosine = reach(k, y[0])
     far, rate = (x, w) if single else (y[2], y[3])
-    stretch = far - y[0] + k[REST] / k[C1]
-    y[4] = 1.0 if stretch > 0.0 and k[C1] * stretch + k[B1] * (rate - y[1]) > 0.0 else 0.0
+    stretch = far - near + k[REST] / k[C1]
+    y[4] = 1.0 if stretch > 0.0 and k[C1] * stretch + k[B1] * (rate - cosine * y[1]) > 0.0 else 0.0
     stretch = x - y[2] + k[REST] / k[C2] if not single else 0.0
     y[5] = 1.0 if stretch > 0.0 and k[C2] * stretch + k[B2] * (w - y[3]) > 0.0 else 0.0
 
@@ -182,6 +185,8 @@ def sample(k, y, C, cubic, drive, i, dt):
 def advance(k, y, drive, dt, out):
     """Carries y over len(drive) - 1 samples; out[i] = u, u', F at sample i + 1. Returns a Status."""
     C, cubic = np.zeros((ROWS, COLUMNS)), np.zeros(4)
+    if k[OFFSET] > 0.0:
+        return advance_offset(k, y, cubic, drive, dt, out)
     M, known = np.zeros((SLOTS, INPUTS, 4)), np.zeros(SLOTS)
     acting, end = np.zeros(4), np.zeros(4)
     i, n = 0, len(drive) - 1

@@ -32,7 +32,7 @@ def advance_many(
 ) -> NDArray[np.int64]:
     """Carries runs side by side and returns each one's Status [r].
 
-    constants [r, 19], states [r, 7] (changed in place), drives [r or 1, n + 1, 2], out [r, n, 3]: u, u', F. Each
+    constants [r, 22], states [r, 7] (changed in place), drives [r or 1, n + 1, 2], out [r, n, 3]: u, u', F. Each
     run gives the bits that `advance` gives it alone. threads: as many as there are cores where not given.
     """
     runs = len(constants)

@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stand.setup import Setup, System
+from twin.rigs import rest_tension, strand
 
 # constants
 MASS, RIM, C1, B1, C2, B2, REST, WEIGHT, DRY, DRY_SPEED = range(10)
 THRESHOLD, DAMPING_SLOPE, STIFFNESS_SLOPE, SIGNED, RATIO1, RATIO2, TOLERANCE, SLIDES, CREEPS = range(10, 19)
-CONSTANTS = 19
+ALONG, OFFSET, NORMAL = range(19, 22)
+CONSTANTS = 22
 # state: u, u', s, s', whether each strand is taut, whether the threshold speed is passed
 STATE = 7
 #: a pulley lighter (J/r^2) than this share of the weight moves as if it had no mass
@@ -30,7 +32,7 @@ def pack(
     signed: bool = False,
     tolerance: float = TIGHT,
 ) -> NDArray[np.float64]:
-    """The kernel's constants, float64 [19], of the force model (S1 eqs. 1 to 3 and `stand.md`'s balances).
+    """The kernel's constants, float64 [22], of the force model (S1 eqs. 1 to 3 and `stand.md`'s balances).
 
     threshold m/s, damping_slope N s^2/m^2 and stiffness_slope N s/m^2 for the whole fibre; signed: the
     threshold is on u', not on its magnitude. A rig without a pulley, or whose pulley has no mass, is one strand.
@@ -43,7 +45,10 @@ def pack(
     k[MASS], k[RIM] = setup.mass, 0.0 if single else rim
     k[C1], k[C2] = setup.fibre_stiffness * k[RATIO1], setup.fibre_stiffness * k[RATIO2]
     k[B1], k[B2] = setup.fibre_damping * k[RATIO1], setup.fibre_damping * k[RATIO2]
-    k[REST] = k[WEIGHT] = setup.rest_tension
+    path = strand(setup)
+    k[ALONG], k[OFFSET] = path.along, path.offset
+    k[NORMAL] = setup.mass * setup.gravity * math.cos(setup.incline_angle)
+    k[REST], k[WEIGHT] = rest_tension(setup), setup.rest_tension
     k[DRY], k[DRY_SPEED] = setup.guide_friction, setup.guide_friction_velocity
     k[THRESHOLD], k[DAMPING_SLOPE], k[STIFFNESS_SLOPE] = threshold, damping_slope, stiffness_slope
     k[SIGNED], k[TOLERANCE] = float(signed), tolerance

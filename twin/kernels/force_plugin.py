@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stand.setup import Setup
-from twin.kernels.force_layout import B2, C1, C2, REST, RIM, STATE, TIGHT, pack
+from twin.kernels.force_layout import ALONG, B2, C1, C2, OFFSET, REST, RIM, STATE, TIGHT, pack
 from twin.model import Start
 
 Float = NDArray[np.float64]
@@ -44,7 +44,7 @@ def start(k: Float, at: Start) -> Float:
 
 def _rim(k: Float, at: Start) -> tuple[float, float]:
     """s and s': as given, or from T2 = F, or balancing both strands (S1's layout, `stand.md`)."""
-    balance, speed = _balance(k, at.u, at.x), _balance(k, at.v, at.w)
+    balance, speed = _balance(k, _near(k, at.u), at.x), _balance(k, _cosine(k, at.u) * at.v, at.w)
     if at.rim_speed is not None:
         speed = at.rim_speed
     if at.s is not None:
@@ -52,6 +52,15 @@ def _rim(k: Float, at: Start) -> tuple[float, float]:
     if at.force is not None and at.force > 0.0:
         return float(at.x + (k[REST] + k[B2] * (at.w - speed) - at.force) / k[C2]), speed
     return balance, speed
+
+
+def _near(k: Float, u: float) -> float:
+    """How much shorter than at rest the weight's strand is, m."""
+    return u if k[OFFSET] == 0.0 else math.hypot(k[ALONG], k[OFFSET]) - math.hypot(k[ALONG] - u, k[OFFSET])
+
+
+def _cosine(k: Float, u: float) -> float:
+    return 1.0 if k[OFFSET] == 0.0 else float(k[ALONG] - u) / math.hypot(k[ALONG] - u, k[OFFSET])
 
 
 def _balance(k: Float, near: float, far: float) -> float:
