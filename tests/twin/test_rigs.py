@@ -77,7 +77,7 @@ def test_on_the_asymmetric_rig_the_force_model_moves_as_the_fibres_with_mass_do(
     setup, (x, w) = rig("asymmetric").setup(), sine(1.0, 0.06, 1.0)
     force, ritz, points = (run(name, setup, x, w) for name in ("force", "ritz", "point-mass"))
     assert np.abs(force[:, 0] - ritz[:, 0]).max() < 1e-4 * np.ptp(force[:, 0])
-    assert np.abs(force[:, 0] - points[:, 0]).max() < 1e-3 * np.ptp(force[:, 0])
+    assert np.abs(force[:, 0] - points[:, 0]).max() < 2e-3 * np.ptp(force[:, 0])
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -89,7 +89,7 @@ def test_pulled_steadily_the_asymmetric_guide_rubs_by_what_the_fibre_presses_sid
     rubs = tension * strand(setup).cosine(u) - setup.rest_tension
     expected = sign * setup.guide_friction * friction_factor(setup, tension, u)
     assert rubs == pytest.approx(expected, abs=0.01)
-    assert abs(expected) > 1.01 * setup.guide_friction
+    assert abs(expected) > 1.005 * setup.guide_friction
 
 
 def test_a_vanishing_offset_is_none() -> None:
