@@ -30,6 +30,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     if not arguments or arguments[0] not in commands:
         print(f"usage: python -m mocks {{{','.join(commands)}}} ... (--help after a command)", file=sys.stderr)
         return 0 if arguments[:1] in (["-h"], ["--help"]) else 2
+    from mocks.devices.priority import be_ordinary
+
+    be_ordinary()
     return commands[arguments[0]](arguments[1:])
 
 
@@ -73,15 +76,17 @@ def add_process_options(parser: argparse.ArgumentParser) -> None:
 
 def run(stand: Runs, announce: Path | None, parent: int | None, failed: Callable[[], BaseException | None]) -> int:
     """Announce, then wait for a signal, the parent's end or a failure."""
-    from mocks.devices.priority import keep_at_hand, raise_priority
+    from mocks.devices.priority import be_ordinary, keep_at_hand, raise_priority
 
-    raise_priority()
     sys.setswitchinterval(5e-5)
     ending = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: ending.set())
-    line = json.dumps(stand.start())
+    raise_priority()
+    told = stand.start()
+    be_ordinary()
     keep_at_hand()
+    line = json.dumps(told)
     if announce:
         announce.write_text(line + "\n")
     print(line, flush=True)

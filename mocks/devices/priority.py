@@ -25,6 +25,12 @@ def raise_priority() -> bool:
     return False
 
 
+def be_ordinary() -> None:
+    """This thread and what it starts from now on as other programs, whatever it inherited."""
+    with suppress(OSError, AttributeError):
+        os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+
+
 def keep_at_hand() -> None:
     """Memory stays where it is once touched, and what lives now is no longer searched for garbage: both cost pauses."""
     with suppress(OSError, AttributeError):

@@ -19,6 +19,7 @@ from stand.guardian.watch import Line, stop_drive
 from stand.runs.link import StopRequest, is_last
 from stand.runs.messages import Failed, Finished, Health, Phase, Progress
 from stand.runs.order import Order
+from stand.runs.priority import ordinary_children
 from stand.runs.stopping import stop_order
 from stand.safety.trip import Trip
 
@@ -28,6 +29,7 @@ Event = Phase | LiveBlock | Progress | Health | Trip | Finished | Failed
 def start(stand: Stand, order: Order) -> RunHandle:
     """Start the acquisition process on this order; returns at once, what goes wrong comes as `Failed`."""
     ours, theirs = Pipe()
+    ordinary_children()
     command = [sys.executable, "-m", "stand.runs", str(theirs.fileno()), str(os.getpid())]
     process = subprocess.Popen(
         command, pass_fds=(theirs.fileno(),), stdin=subprocess.DEVNULL, start_new_session=True, cwd=Path.cwd()

@@ -1,31 +1,48 @@
-"""The acquisition goes before ordinary work, as far as the system lets it."""
+"""The acquisition goes before ordinary work, as far as the system lets it; real-time only where a moment counts.
+
+A serial port's bytes pass through a worker thread of the kernel, which is an ordinary one. A process that computes in
+real time keeps it waiting, and falls deaf by its own haste: so only threads that mostly sleep are real-time, and none
+while the process starts, prepares or closes its file.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import os
+from collections.abc import Iterator
+from pathlib import Path
 
 REAL_TIME, NICE = 10, -10
 
 
-def prefer() -> str:
-    """Real-time scheduling where it is allowed, else a better nice value, else nothing; which of them, in words.
+def prefer() -> None:
+    """This process before ordinary ones, itself an ordinary one; its session's share of the processor, too."""
+    relent()
+    with contextlib.suppress(OSError, AttributeError):
+        os.setpriority(os.PRIO_PROCESS, 0, NICE)
+    with contextlib.suppress(OSError):
+        Path("/proc/self/autogroup").write_text(str(NICE))
 
-    Threads and the guardian started from here on inherit it. Reading, judging and stopping take about a fifth of a
-    core: they starve nobody; the closing of a recording, which may take more, is done after `relent`.
-    """
-    try:
+
+@contextlib.contextmanager
+def ahead() -> Iterator[None]:
+    """The calling thread in real time meanwhile, where it is allowed; threads and processes it starts stay so."""
+    with contextlib.suppress(OSError, AttributeError):
         os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(REAL_TIME))
-        return "real-time"
-    except (OSError, AttributeError):
-        pass
     try:
-        return f"nice {os.nice(NICE)}"
-    except OSError:
-        return "ordinary"
+        yield
+    finally:
+        relent()
 
 
 def relent() -> None:
     """The calling thread is an ordinary one from here on."""
     with contextlib.suppress(OSError, AttributeError):
         os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+
+
+def ordinary_children() -> None:
+    """What the calling thread starts from here on begins as an ordinary process, whatever it is itself."""
+    with contextlib.suppress(OSError, AttributeError):
+        policy, parameters = os.sched_getscheduler(0), os.sched_getparam(0)
+        os.sched_setscheduler(0, policy | os.SCHED_RESET_ON_FORK, parameters)

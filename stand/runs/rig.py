@@ -17,6 +17,7 @@ from stand.runs.acquisition import Acquisition, Reader, make_readers
 from stand.runs.checks import await_standstill
 from stand.runs.halt import Halt
 from stand.runs.messages import Health
+from stand.runs.priority import ahead
 from stand.runs.rules import stale_rule
 from stand.runs.stopping import stop_order
 from stand.safety import QuickStop, Rule, Supervisor, Trip
@@ -54,8 +55,9 @@ class Rig:
         """Open every link; DeviceError naming the one that fails."""
         if self.moves:
             self.drive.connect()
-            self._connect_quick_stop()
-            self.guardian.start()
+            with ahead():
+                self._connect_quick_stop()
+                self.guardian.start()
         for reader in self.readers.values():
             reader.open()
         if self.moves:
@@ -88,12 +90,14 @@ class Rig:
         for rule in rules:
             self.supervisor.add(rule)
         self.read_unwatched()
-        self.supervisor.start()
+        with ahead():
+            self.supervisor.start()
 
     def read_unwatched(self) -> None:
         """The same without a watchdog, for a replay, which may end at any time."""
         self._reading = True
-        self.acquisition.start()
+        with ahead():
+            self.acquisition.start()
         self.wait_for_samples()
 
     def wait_for_samples(self, timeout: float = 3.0) -> None:

@@ -15,7 +15,7 @@ from stand.recorder.finish import finish_file
 from stand.runs.checks import check_rest_force, check_state, go_to_rest, identify
 from stand.runs.messages import Finished, Outcome, Phase, Progress
 from stand.runs.order import RunOrder
-from stand.runs.priority import relent
+from stand.runs.priority import ahead
 from stand.runs.rig import Rig
 from stand.runs.rules import guide_rule, preparing_rules, standing_rules
 from stand.runs.streams import stream_specs
@@ -67,7 +67,8 @@ def perform(rig: Rig, order: RunOrder, path: Path) -> Finished:
     rig.read(preparing_rules(stand))
     _prepare(rig, order, motion.rest_travel)
     recorder = Recorder(path, _file_plan(stand, order, identities, motion.duration))
-    recorder.start()
+    with ahead():
+        recorder.start()
     span, ending = Span(), Ending()
     try:
         _record(rig, recorder, motion, span, ending)
@@ -76,7 +77,6 @@ def perform(rig: Rig, order: RunOrder, path: Path) -> Finished:
         rig.come_to_rest()
         announce(rig, "align")
         rig.end_reading()
-        relent()
         recorder.close()
     return close_run(rig, path, span, ending)
 
@@ -150,7 +150,8 @@ def _record(rig: Rig, recorder: Recorder, motion: Plan, span: Span, ending: Endi
     rig.wait_for_samples()
     moment = Moment(rig, motion, span)
     try:
-        done = follow(rig.drive, motion, moment.should_stop, moment.begin)
+        with ahead():
+            done = follow(rig.drive, motion, moment.should_stop, moment.begin)
         rig.acquisition.note("motion", f"{done.late} late steps, demand within {done.worst * 1e6:.0f} um of the plan")
     except StandError as error:
         rig.acquisition.note("error", str(error))

@@ -63,6 +63,7 @@ class Server:
 
     def watch(self) -> None:
         """Follow the live stream as a page does."""
+        prefer()  # what measures must not be late itself
         address = self.address.replace("http", "ws", 1) + "/live"
         with contextlib.suppress(ConnectionClosed), connect(address, max_size=None) as socket:
             while not self.leave.is_set():
@@ -173,7 +174,6 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--minutes", type=float, default=10.0)
     options = parser.parse_args()
-    prefer()  # what measures must not be late itself
     with contextlib.ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         simulated = stack.enter_context(simulated_stand(folder=folder))
