@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 from stand.errors import StandError
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run one command and leave with its exit code: 0 done, 2 bad input, 1 anything else."""
+    share_kernels()
     sys.exit(run(sys.argv[1:] if arguments is None else arguments))
+
+
+def share_kernels() -> None:
+    """In a checkout, compiled kernels are kept where `make` keeps them: nothing is compiled a second time."""
+    checkout = Path(__file__).parents[2]
+    if (checkout / "pyproject.toml").is_file():
+        os.environ.setdefault("NUMBA_CACHE_DIR", str(checkout / "build" / "numba"))
 
 
 def run(arguments: Sequence[str]) -> int:
