@@ -9,7 +9,18 @@ from api.cli._console import out, progress, score_rows, table
 from api.experiment import Experiment, State
 from stand.errors import DeviceError, SafetyTrip
 
-MODELS = ("model", "R(u)", "R(F)", "NRMSE u", "NRMSE F", "window u µm", "window F N", "seconds")
+MODELS = (
+    "model",
+    "R(u)",
+    "R(F)",
+    "NRMSE u",
+    "NRMSE F",
+    "peak u mm",
+    "peak F N",
+    "window u µm",
+    "window F N",
+    "seconds",
+)
 SCORES = ("channel", "R", "R ceiling", "NRMSE", "lag ms", "gain", "peak error")
 
 
@@ -42,15 +53,17 @@ def compare_and_tell(
             channels = {name: values for name, values in run.items() if isinstance(values, dict)}
             title = f"{run['file']}: model and measurement, {100 * run['slack_fraction']:.1f} % slack"
             out.print(table(title, SCORES, score_rows(channels), right=SCORES[1:]))
-        _tell_models(done["comparison"].get("models", []))
+        tell_models(done["comparison"])
         out.print(f"comparison  {done['page']}\n            {done['json']}")
     return done
 
 
-def _tell_models(models: list[dict[str, Any]]) -> None:
+def tell_models(comparison: dict[str, Any]) -> None:
+    """Print all models of a comparison (as JSON) side by side, and R's ceiling; nothing where there is but one."""
+    models = comparison.get("models", [])
     if len(models) < 2:
         return
-    rows = []
+    rows: list[list[object]] = []
     for model in models:
         u, F = model.get("weight_position", {}), model.get("fibre_force", {})
         windows = (u.get("short_window_error"), F.get("short_window_error"))
@@ -62,16 +75,26 @@ def _tell_models(models: list[dict[str, Any]]) -> None:
                 F.get("R"),
                 u.get("nrmse"),
                 F.get("nrmse"),
-                _micro(windows[0]),
+                _scaled(u.get("peak_error"), 1e3),
+                F.get("peak_error"),
+                _scaled(windows[0], 1e6),
                 windows[1],
                 cost,
             ]
         )
+    best = [
+        run[name].get("R_ceiling")
+        for run in comparison["baseline"]["runs"]
+        for name in ("weight_position", "fibre_force")
+    ]
+    rows.append(["R's ceiling", *best, *[None] * (len(MODELS) - 3)])
     out.print(table("Models side by side", MODELS, rows, right=MODELS[1:]))
+    for failed in comparison.get("failed", []):
+        out.print(f"{failed['model']} gave up: {failed['why']}")
 
 
-def _micro(value: float | None) -> float | None:
-    return None if value is None else 1e6 * value
+def _scaled(value: float | None, factor: float) -> float | None:
+    return None if value is None else factor * value
 
 
 def diagnose_and_tell(

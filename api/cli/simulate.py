@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 EXAMPLE = "stand simulate --situation 3c --model force --out simulated.h5"
 Number = float | None
+PUBLISHED = ("channel", "S1: constant b", "S1: b(v)", "here: constant b", "here: b(v)")
 COLUMNS = ("model", "u from mm", "u to mm", "F from N", "F to N", "slack %", "seconds")
 
 
@@ -45,7 +46,8 @@ def command(
     fields = {"shape": shape, "frequency": frequency, "amplitude": amplitude, "duration": duration, "ramp": ramp}
     fields |= {"situation": situation, "added_mass": added_mass}
     run = read_recording(recording) if recording else ordered(_order(fields))
-    models = list(model_names()) if model and "all" in model else model or ["force"]
+    usual = ["force"] if situation is None else ["force", "force-damping"]
+    models = list(model_names()) if model and "all" in model else model or usual
     rows: list[dict[str, Any]] = []
     with progress("simulating") as report:
         for k, name in enumerate(models):
@@ -56,7 +58,11 @@ def command(
                 save_simulated(run, found, save)
     if not quiet(json):
         _show(run, rows)
-    write_json({"situation": situation, "models": rows, "published_R": _published(situation)}, json)
+    published = _published(situation)
+    content = {"situation": situation, "models": rows, "published_R": published}
+    if published is not None and recording is None:
+        content |= _beside(run, models, published, not quiet(json))
+    write_json(content, json)
 
 
 def _order(fields: dict[str, Any]) -> Order:
@@ -77,6 +83,23 @@ def _show(run: Recording, rows: list[dict[str, Any]]) -> None:
         for r in rows
     ]
     out.print(table(f"{run.name}: {run.time[-1]:.1f} s simulated", COLUMNS, cells, right=COLUMNS[1:]))
+
+
+def _beside(run: Recording, models: list[str], published: dict[str, Any], say: bool) -> dict[str, Any]:
+    """The comparison's tables for a situation, and S1's R beside those found here."""
+    from api.beside import STAND_IN, judged, reasons, table_rows
+    from api.cli._after import tell_models
+
+    with progress("comparing") as report:
+        comparison = judged(run, models, report)
+    content, rows, why = comparison.to_json(), table_rows(published, comparison), reasons(comparison)
+    if say:
+        tell_models(content)
+        out.print(table("R as S1's Table 3 has it, and here", PUBLISHED, rows, right=PUBLISHED[1:]))
+        out.print("They may differ because:")
+        for reason in why:
+            out.print(f"- {reason}", soft_wrap=True)
+    return {"comparison": content, "stand_in": STAND_IN, "table_3": rows, "reasons": why}
 
 
 def _published(name: str | None) -> dict[str, Any] | None:
