@@ -13,11 +13,13 @@ import numpy.ma  # noqa: F401  numpy loads it at the first median, which would h
 from stand.block import Block
 from stand.clock import LiveAligner, LiveBlock
 from stand.config import Stand
+from stand.drive.profile import load_profile
 from stand.errors import StandError
 from stand.recorder import Happening, Recorder, Taken
 from stand.runs.health import Meter
 from stand.runs.messages import Health
 from stand.safety import Supervisor
+from stand.transport.poll_reader import PollReader
 from stand.transport.raw import Raw
 from stand.transport.readers import GaugeReader, RingReader
 
@@ -37,7 +39,8 @@ class Reader(Protocol):
 def make_readers(stand: Stand) -> dict[str, Reader]:
     """A reader for each instrument of the stand; the drive's last: a replay begins when it is asked."""
     readers: dict[str, Reader] = {name: GaugeReader(name, getattr(stand, name)) for name in GAUGES}
-    return readers | {"drive": RingReader(stand)}
+    ring = load_profile(stand.drive.profile).trace.kind == "ring"
+    return readers | {"drive": RingReader(stand) if ring else PollReader(stand)}
 
 
 class Acquisition:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from stand.clock.polls import WORDS
 from stand.config import GaugeConfig, RtuLink, Stand, TcpLink
+from stand.drive.profile import load_profile
 from stand.recorder import StreamSpec, Wire
 
 RING_REGISTERS = 64
@@ -33,10 +35,17 @@ def _spec(stand: Stand, name: str, identity: dict[str, str]) -> StreamSpec:
             bytes_per_sample=LONGEST_FRAME, texts=texts, numbers=numbers,
         )  # fmt: skip
     texts["identity"]["profile"] = instrument.profile
-    sampling = f"read from the drive's counted ring of {instrument.rate:g} Hz over {_wire(instrument.link)}; "
-    sampling += "between its samples interpolated"
+    ring = load_profile(instrument.profile).trace.kind == "ring"
+    if ring:
+        sampling = f"read from the drive's counted ring of {instrument.rate:g} Hz over {_wire(instrument.link)}; "
+        sampling += "between its samples interpolated"
+    else:
+        sampling = (
+            f"position and velocity polled {instrument.poll_rate:g} times a second over {_wire(instrument.link)}; "
+        )
+        sampling += "derived: between polls of position and velocity interpolated"
     return StreamSpec(
-        name, Wire.REGISTERS, UNITS[name], instrument.rate, sampling, width=RING_REGISTERS,
+        name, Wire.REGISTERS, UNITS[name], instrument.rate, sampling, width=RING_REGISTERS if ring else WORDS,
         reads_per_second=4 * instrument.poll_rate, texts=texts, numbers={"calibration": calibration},
     )  # fmt: skip
 

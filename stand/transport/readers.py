@@ -14,10 +14,8 @@ import serial
 
 from stand.block import Block
 from stand.clock.aim import Aim
-from stand.clock.polls import pack_poll
 from stand.codecs.codec import Feeder, load_codec
 from stand.config import GaugeConfig, Stand
-from stand.drive.backends import make_backend
 from stand.drive.profile import load_profile
 from stand.errors import DeviceError, StandError
 from stand.transport import modbus
@@ -164,7 +162,7 @@ class RingReader:
         self.instrument = "drive"
         self.profile = load_profile(stand.drive.profile)
         if self.profile.trace.kind != "ring":
-            remedy = "Use plain polling (PollReader), which is recorded as derived"
+            remedy = "Poll it plainly, which is recorded as derived"
             raise DeviceError("the profile has no position ring", where=self.profile.profile.name, remedy=remedy)
         self.decoder = RingDecoder(self.profile, direction=stand.drive.direction)
         self._link, self._clock = ModbusLink(stand.drive.link, clock), clock
@@ -225,63 +223,6 @@ class RingReader:
                 wait = self._aim.next(due) - self._clock()
                 if wait > 0:
                     time.sleep(wait)
-        except StandError as error:
-            if not self._stopping.is_set():
-                on_error(self.instrument, error)
-
-
-class PollReader:
-    """Position and velocity polled one by one, for a drive without a ring; the channel is labelled derived."""
-
-    def __init__(self, stand: Stand, clock: Clock = time.monotonic, seed: int | None = None) -> None:
-        self.instrument = "drive"
-        self.profile = load_profile(stand.drive.profile)
-        self._link, self._clock = ModbusLink(stand.drive.link, clock), clock
-        self._backend = make_backend(self.profile, self._link)
-        self._period, self._random = 1.0 / stand.drive.poll_rate, random.Random(seed)
-        self._thread: threading.Thread | None = None
-        self._stopping = threading.Event()
-
-    def open(self) -> None:
-        """Connect."""
-        self._link.open()
-
-    def close(self) -> None:
-        """Stop polling and disconnect; harmless twice."""
-        self.stop()
-        self._link.close()
-
-    def identify(self) -> dict[str, str]:
-        """How the channel is sampled."""
-        return {"profile": self.profile.profile.name, "trace": "plain polling, derived"}
-
-    def poll(self) -> RawRegisters:
-        """One poll now."""
-        request = self._clock()
-        values = self._backend.snapshot()
-        response = self._clock()
-        registers = pack_poll(values["position"], values.get("velocity", 0))
-        return RawRegisters(self.instrument, registers, request, response)
-
-    def start(self, sink: Sink, on_error: OnError) -> None:
-        """Poll from now on, in a thread; no blocks, only raw polls."""
-        self._stopping.clear()
-        self._thread = threading.Thread(target=self._run, args=(sink, on_error), name="polls", daemon=True)
-        self._thread.start()
-
-    def stop(self) -> None:
-        """End the thread; harmless twice."""
-        self._stopping.set()
-        if self._thread is not None and self._thread is not threading.current_thread():
-            self._thread.join(2.0)
-        self._thread = None
-
-    def _run(self, sink: Sink, on_error: OnError) -> None:
-        raise_priority()
-        try:
-            while not self._stopping.is_set():
-                sink(self.poll(), None)
-                self._stopping.wait(self._period * self._random.uniform(0.8, 1.1))
         except StandError as error:
             if not self._stopping.is_set():
                 on_error(self.instrument, error)
