@@ -75,7 +75,9 @@ def find_ticks(time: Float, content: Float, frame_period: float) -> Ticks | None
     period = float(np.median(some))
     if period < 4 * frame_period:
         return None
-    number, whole = _count_ticks(told, period, PHASE * frame_period)
+    off = PHASE * frame_period
+    period = float(np.mean(some[np.abs(some - period) <= off]))  # each alone is known to a byte or a gap between frames
+    number, whole = _count_ticks(told, period, off)
     if np.count_nonzero(whole) < 0.8 * len(time):
         return None
     number[whole] += _skipped(time[whole] - period * number[whole], period)

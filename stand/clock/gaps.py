@@ -19,8 +19,8 @@ STRETCHES = (0.04, 0.08, 0.16, 0.32, 0.64)
 FORGIVEN = 40
 #: so many breaks in one run, mended or forgiven, are no lost frames but a host that stood still: the search ends
 MENDS = 60
-#: of each such stretch, s, the promptest read tells whether the gaps found make the run straighter
-LEVEL = 0.4
+#: of each such stretch, s, the promptest read tells whether it keeps to the clock, within a share of a frame period
+LEVEL, NEAR = 0.4, 0.2
 #: reads are thinned to the promptest in this many seconds; a loss is placed with a second of reads beyond it
 THIN, HORIZON, SPAN = 0.004, 1.0, 10.0
 
@@ -58,23 +58,37 @@ def find_gaps(bounds: Bounds, reads: Reads, period: float) -> tuple[Gap, ...]:
             break
         else:
             begin = search.until(begin, SPAN / 2)
-    if (
-        search.gaps
-        and not bounds.two_sided
-        and _crooked(shift(bounds, reads.frames, search.gaps), period) > _crooked(bounds, period)
-    ):
-        return ()
-    return search.gaps
+    return search.gaps if bounds.two_sided else _believed(bounds, reads, search.gaps, period)
 
 
-def _crooked(bounds: Bounds, period: float) -> float:
-    """How far the promptest reads of all stretches stray from one line, s: only true gaps make it straighter."""
+def _believed(bounds: Bounds, reads: Reads, gaps: tuple[Gap, ...], period: float) -> tuple[Gap, ...]:
+    """Those of the gaps, and as large, that let most stretches of the run keep to one clock, one after another.
+
+    A host that is late for a while looks like a loss that is made good again, and a clock that runs a little fast
+    takes in what is left of it: such a gap helps no other stretch.
+    """
+    held: tuple[Gap, ...] = ()
+    best = _level(bounds, period)
+    left = list(gaps)
+    while left:
+        trials = [Gap(gap.frame, count) for gap in left for count in sorted({gap.count, 1, 2, 3})]
+        levels = [_level(shift(bounds, reads.frames, (*held, trial)), period) for trial in trials]
+        if max(levels) <= best:
+            break
+        best, found = max(levels), trials[int(np.argmax(levels))]
+        held = tuple(sorted((*held, found), key=lambda gap: gap.frame))
+        left = [gap for gap in left if gap.frame != found.frame]
+    return held
+
+
+def _level(bounds: Bounds, period: float) -> int:
+    """How many stretches have their promptest read on the line below all of them."""
     slope = line_below(bounds.early, bounds.before, period).slope
     first = _promptest(bounds.before - slope * bounds.early, bounds.before, LEVEL, 3)
     if len(first) < 3:
-        return 0.0
-    line = np.polynomial.Polynomial.fit(bounds.early[first], bounds.before[first], 1)
-    return float(np.mean(np.abs(bounds.before[first] - line(bounds.early[first]))))
+        return 0
+    index, time = bounds.early[first], bounds.before[first]
+    return int(np.count_nonzero(time - line_below(index, time, period).at(index) < NEAR * period))
 
 
 def _watched(bounds: Bounds, reads: Reads, period: float) -> tuple[Bounds, Int] | None:

@@ -57,6 +57,45 @@ def test_lost_frames_are_counted_placed_within_fifty_milliseconds_and_marked(tim
     assert np.all(np.abs(aligned.origin + marked / 2000 - found["force_gauge"].time) < 0.002)
 
 
+def _delayed(wires: Wires, seed: int, held: bool) -> dict[str, GaugeStream | RingStream]:
+    """As a busy host gets them: all reads of a quarter of a second at once, or stretches late by some milliseconds."""
+    rng, found = np.random.default_rng(seed), dict(wires.streams)
+    for name, stream in wires.streams.items():
+        if not isinstance(stream, GaugeStream):
+            continue
+        time = stream.arrival_time - stream.arrival_time[0]
+        late = time.copy()
+        for begin, end in ((2.0, 2.6), (3.0, 3.9), (8.0, 9.2)):
+            inside = (time >= begin) & (time < end)
+            parts = begin + 0.25 * np.ceil((time[inside] - begin) / 0.25)
+            slow = time[inside] + rng.uniform(0.3e-3, 1e-3) + rng.exponential(5e-4, np.count_nonzero(inside))
+            late[inside] = parts if held else slow
+        late = np.maximum.accumulate(late)
+        last = np.append(np.diff(late) > 0, True)
+        sizes = np.diff(np.cumsum(stream.arrival_bytes)[last], prepend=0)
+        found[name] = GaugeStream(stream.raw, late[last] + stream.arrival_time[0], sizes)
+    return found
+
+
+@pytest.mark.parametrize("timer", [0.016, None])
+@pytest.mark.parametrize("held", [True, False])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_busy_host_loses_no_frame_that_came_and_hides_none_that_did_not(
+    seed: int, held: bool, timer: float | None
+) -> None:
+    wires = draw(seed, timer=timer)
+    aligned = align(_delayed(wires, seed, held), wires.stand, wires.origin, wires.count)
+    assert aligned.losses == ()
+    assert max(time_error(wires, aligned, name) for name in ("force_gauge", "dial_gauge")) < 100e-6
+    lost = {"force_gauge": ((11_500, 1),), "dial_gauge": ((12_300, 3),)}
+    wires = draw(seed, timer=timer, lost=lost)
+    aligned = align(_delayed(wires, seed, held), wires.stand, wires.origin, wires.count)
+    found = {loss.instrument: loss for loss in aligned.losses}
+    assert {loss.instrument: loss.count for loss in aligned.losses} == {"force_gauge": 1, "dial_gauge": 3}
+    for name, ((first, _),) in lost.items():
+        assert found[name].time == pytest.approx(wires.epochs[name] + first * wires.periods[name], abs=0.05)
+
+
 def test_the_same_bytes_and_times_give_the_same_grid_bit_for_bit() -> None:
     wires = draw(3)
     first, second = (align(wires.streams, wires.stand, wires.origin, wires.count) for _ in range(2))
