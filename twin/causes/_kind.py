@@ -26,15 +26,18 @@ GUIDE = frozenset(System)
 class Undo:
     """How a true signal is had from a recorded one, to first order, where a window starts.
 
-    true u(t) = (y(t + u_late) + u_lag y'(t + u_late) + u_side sign(u')) / u_gain, y the record;
+    true u(t) = (y(t + u_late) + u_lag y'(t + u_late) + u_side sign(u')) / u_gain, y the record, and u_late grows by
+    u_drift each second;
     true F(t) = (y(t + F_late) + F_lag y'(t + F_late) - F_offset - F_rate t - F_mass x'') / F_gain.
     """
 
     u_late: float = 0.0
+    u_drift: float = 0.0
     u_lag: float = 0.0
     u_gain: float = 1.0
     u_side: float = 0.0
     F_late: float = 0.0
+    F_drift: float = 0.0
     F_lag: float = 0.0
     F_gain: float = 1.0
     F_offset: float = 0.0

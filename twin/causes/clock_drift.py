@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from twin.causes._delay import delay_line
-from twin.causes._kind import Cause, drive_input, sensor
+from twin.causes._kind import Cause, Undo, Values, drive_input, sensor
 from twin.parameter import Parameter, Source
 
 
@@ -40,11 +41,27 @@ _ALL = Cause(
     key="instrument",
 )
 
+
+def _late(values: Values) -> float:
+    return values["rate"] / (1.0 + values["rate"])
+
+
+_HOOKS: dict[str, dict[str, Any]] = {
+    "dial_gauge": {"senses": _dial, "undo": lambda values: Undo(u_drift=_late(values))},
+    "force_gauge": {"senses": _force, "undo": lambda values: Undo(F_drift=_late(values))},
+    "drive": {"moves": _drive},
+}
+
+
+def _others(instrument: str) -> tuple[str, ...]:
+    """Two clocks that run alike are the third's fault; then the delays."""
+    return (*(f"clock-drift/{other}" for other in _HOOKS if other != instrument), *_ALL.rivals)
+
+
 clock_drift = replace(
     _ALL,
-    variants=(
-        replace(_ALL, name="clock-drift/dial_gauge", choice="dial_gauge", senses=_dial),
-        replace(_ALL, name="clock-drift/force_gauge", choice="force_gauge", senses=_force),
-        replace(_ALL, name="clock-drift/drive", choice="drive", moves=_drive),
+    variants=tuple(
+        replace(_ALL, name=f"clock-drift/{own}", choice=own, rivals=_others(own), **hook)
+        for own, hook in _HOOKS.items()
     ),
 )

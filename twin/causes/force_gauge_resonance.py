@@ -37,7 +37,9 @@ def _undo(values: Values) -> Undo:
 
 
 def _scan(survey: Survey) -> Sequence[Values]:
-    return grid({}, frequency=(18.0, 27.0, 40.0, 60.0, 85.0, 120.0, 165.0, 230.0, 310.0, 420.0), damping_ratio=(0.05, 0.2))
+    return grid(
+        {}, frequency=(18.0, 27.0, 40.0, 60.0, 85.0, 120.0, 165.0, 230.0, 310.0, 420.0), damping_ratio=(0.05, 0.2)
+    )
 
 
 force_gauge_resonance = Cause(

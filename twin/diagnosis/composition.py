@@ -164,10 +164,12 @@ class Composition:
         parts = [c.undo(self.values(z, c)) for c in self.causes]
         return Undo(
             u_late=sum(p.u_late for p in parts) + self.base_value(z, "late_u"),
+            u_drift=sum(p.u_drift for p in parts),
             u_lag=sum(p.u_lag for p in parts),
             u_gain=math.prod(p.u_gain for p in parts),
             u_side=sum(p.u_side for p in parts),
             F_late=sum(p.F_late for p in parts) + self.base_value(z, "late_F"),
+            F_drift=sum(p.F_drift for p in parts),
             F_lag=sum(p.F_lag for p in parts),
             F_gain=math.prod(p.F_gain for p in parts),
             F_offset=sum(p.F_offset for p in parts),

@@ -22,12 +22,13 @@ from twin.diagnosis.hum import find
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.rivals import Standing, settle
 from twin.diagnosis.run import choose, prepare
-from twin.diagnosis.search import Search, backward, calibrate, error, forward
+from twin.diagnosis.search import Search, backward, calibrate, error, forward, gained, without
 from twin.diagnosis.tell import tell
 from twin.diagnosis.unknown import look
 from twin.diagnosis.verdict import Verdict
 from twin.plugins import every
 
+CONFIRMED = 0.01
 Progress = Callable[[str, float], None]
 
 
@@ -71,6 +72,8 @@ def diagnose(
     progress("checking", 0.75)
     backward(search)
     ranks = settle(search, able)
+    if judge(search, problem.part(problem.windows.held)):
+        ranks = settle(search, able)
     progress("looking beyond the catalogue", 0.82)
     beyond = look(search)
     if beyond is not None and beyond.learned:
@@ -89,6 +92,34 @@ def diagnose(
     verdict = tell(good, bad, search, found, catalogue, ranks, lines, limits, beyond, order)
     progress("done", 1.0)
     return verdict
+
+
+def judge(search: Search, held: Problem) -> bool:
+    """Take back causes that don't predict windows which were not fitted any better; whether one went.
+
+    A base value is judged by its pull alone and stays.
+    """
+    gone = False
+    while len(held.windows) >= 4 and search.current.model.causes:
+        now = fixed(held, search.current)
+        idle = []
+        for cause in search.current.model.causes:
+            if cause.base is not None:
+                continue
+            thinner = (
+                search.base if len(search.current.model.causes) == 1 else without(search.problem, search.current, cause)
+            )
+            gain = gained(held, fixed(held, thinner), now)
+            if gain < CONFIRMED:
+                idle.append((gain, thinner))
+        if not idle:
+            return gone
+        search.current = min(idle, key=lambda pair: pair[0])[1]
+        search.ladder = [f for f in search.ladder if _part_of(f, search.current)]
+        if search.ladder[-1].model.causes != search.current.model.causes:
+            search.ladder.append(search.current)
+        gone = True
+    return gone
 
 
 def _add(search: Search, limit: clipped.Clip, catalogue: Sequence[Cause]) -> None:

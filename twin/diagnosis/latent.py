@@ -87,7 +87,7 @@ def terms(problem: Problem, fitted: Fitted) -> list[Term]:
             signs = (False, True) if place in ("guide", "pulley") and variable != "weight_velocity" else (False,)
             for signed in signs:
                 found.append(_function(place, variable, signed, grams, values, inverse, reduced.vector))
-    return sorted(found, key=lambda t: -t.gain)
+    return sorted((t for t in found if np.isfinite(t.gain)), key=lambda t: -t.gain)
 
 
 def _nodes(problem: Problem, simulated: Float) -> tuple[Float, Mapping[str, Float]]:
@@ -153,12 +153,16 @@ def _function(
     v = values[variable]
     low, high = np.nanquantile(v, [0.003, 0.997])
     best = Term(place, variable, signed, -np.inf, np.zeros(0), np.zeros(0), np.zeros(0))
+    if not high - low > 1e-9 * max(abs(low), abs(high), 1e-3):
+        return best
     for count in KNOTS:
         knots = np.linspace(low, high, count)
         phi = _basis(v, knots)
         if signed:
             phi = phi * -np.nan_to_num(values["speed sign"])[..., None]
         M, b = _normal(grams, phi, inverse, vector)
+        if not np.trace(M) > 0.0:
+            continue
         M = M + 1e-4 * np.trace(M) / count * np.eye(count)
         y = np.linalg.solve(M, b)
         gain = float(b @ y) - PRICE * count

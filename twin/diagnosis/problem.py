@@ -18,6 +18,7 @@ from twin.kernels import composed, composed_sense
 from twin.kernels import composed_slots as k
 
 Float = NDArray[np.float64]
+Index = NDArray[np.int64]
 WORKERS = 2
 STEP = 0.02
 _POOL = ThreadPoolExecutor(WORKERS)
@@ -154,16 +155,16 @@ class Problem:
         """Each window's start (u, v, s, w) as its instruments, inverted, tell it."""
         undo, w = model.undo(z), self.windows
         at = self.offset[w.run] + w.first
-        u, v = self._around(0, undo.u_late, undo.u_lag)
+        time: Float = w.first.astype(np.float64) * self.dt
+        u, v = self._around(0, undo.u_late + undo.u_drift * time, undo.u_lag)
         v_true = v / undo.u_gain
         u_true = (u + undo.u_side * np.clip(v / 0.002, -1, 1)) / undo.u_gain
         centre = np.zeros((len(w), 4))
         centre[:, 0], centre[:, 1] = u_true, v_true
         if self.system is not System.WFPD:
             return centre
-        F, Fd = self._around(1, undo.F_late, undo.F_lag)
+        F, Fd = self._around(1, undo.F_late + undo.F_drift * time, undo.F_lag)
         acceleration = (drive[at + 1, 1] - drive[at - 1, 1]) / (2 * self.dt)
-        time = w.first * self.dt
         F = (F - undo.F_offset - undo.F_rate * time - undo.F_mass * acceleration) / undo.F_gain
         c = constants[w.run]
         rate = Fd / undo.F_gain / c[:, k.K_C2]
@@ -174,24 +175,26 @@ class Problem:
             centre[:, 2] += np.clip((first[:, 0, 2] - F) / c[:, k.K_C2], -2e-4, 2e-4)
         return centre
 
-    def _around(self, channel: int, late: float, lag: float) -> tuple[Float, Float]:
+    def _around(self, channel: int, late: Float, lag: float) -> tuple[Float, Float]:
         """A channel's smooth value and rate at the starts, `late` s further on and a lag undone, from a local cubic."""
-        key = ("poly", channel)
-        places = np.round(late / self.dt)
-        if (key, places) not in self._cache:
-            self._cache[key, places] = self._fit(channel, int(places))
-        value, rate, second = self._cache[key, places]
+        places = np.round(late / self.dt).astype(np.int64)
+        key = ("poly", channel, places.tobytes())
+        if key not in self._cache:
+            for old in [a for a in self._cache if a[:2] == key[:2]][:-8]:
+                del self._cache[old]
+            self._cache[key] = self._fit(channel, places)
+        value, rate, second = self._cache[key]
         rest = late - places * self.dt
         value, rate = value + rest * rate + 0.5 * rest**2 * second, rate + rest * second
         return value + lag * rate, rate + lag * second
 
-    def _fit(self, channel: int, shift: int) -> tuple[Float, Float, Float]:
+    def _fit(self, channel: int, shift: Index) -> tuple[Float, Float, Float]:
         w = self.windows
         value, rate, second = np.empty(len(w)), np.empty(len(w)), np.empty(len(w))
         for r, run in enumerate(self.runs):
             mine = w.run == r
             raw = run.raw_u if channel == 0 else run.raw_F
-            places = np.clip(w.first[mine] + shift, 2 * HALF, len(raw) - 2 * HALF - 1)
+            places = np.clip(w.first[mine] + shift[mine], 2 * HALF, len(raw) - 2 * HALF - 1)
             value[mine], rate[mine], _ = polynomial(raw, places, HALF, 3, self.dt)
             second[mine] = curvature(raw, places, 2 * HALF, self.dt)
         return value, rate, second

@@ -157,7 +157,7 @@ def _freed(cause: Cause, fitted: Fitted, reduced, low, high, already) -> Scored:
     step = bounded(matrix, vector, fitted.z, low, high)
     gain = float(2 * vector @ step - step @ matrix @ step) - already
     value = c.value(float(fitted.z[i] + step[i]))
-    error = float(np.sqrt(np.linalg.pinv(matrix)[i, i]))
+    error = float(np.sqrt(max(np.linalg.pinv(matrix)[i, i], 0.0)))
     smallest = 3.0 * c.scale * float(np.hypot(c.prior, error))
     return Scored(cause, ((max(gain, 0.0), 1.0, {"difference": value}),), smallest)
 

@@ -27,6 +27,7 @@ NEEDED = 0.012
 NEEDED_MORE = 0.012
 NOISE = 1.12
 LARGE = 25.0
+DOUBTFUL = 1.4
 WILD = 25.0
 FEW = 2
 #: first parameters that say where an effect begins, not how large it is
@@ -221,7 +222,7 @@ def forward(problem: Problem, base: Fitted, causes: Sequence[Cause], progress: C
 def _direct(problem: Problem, fitted: Fitted, causes: Sequence[Cause]) -> list[Scored]:
     """The direct screen where something large is wrong: on the windows that miss most and on others, evenly."""
     each = misses(problem, fitted).max(axis=1)
-    if error(problem, fitted.residual).max() < LARGE and np.sum(each > LARGE) < FEW:
+    if error(problem, fitted.residual).max() < DOUBTFUL and np.sum(each > LARGE) < FEW:
         return []
     few = problem.part(telling(problem, fitted, 3))
     z = fitted.z if fitted.model.causes else fitted.model.zero()

@@ -208,10 +208,11 @@ def _not_found(search: Search, catalogue: Sequence[Cause], named: set[str]) -> l
 def _gain(found: Evidence) -> Json:
     calibrated, final = found.ladder[1], found.ladder[-1]
     ratio = math.hypot(*final.held_out) / max(math.hypot(*calibrated.held_out), 1e-12)
+    channels = max(sum(e > 0.0 for e in final.held_out), 1)
     return {
         "held_out": _held_out(found.problem, found.final),
         "prediction_error_ratio": ratio,
-        "prediction_error_noise_units": math.hypot(*final.held_out) / math.sqrt(2),
+        "prediction_error_noise_units": math.hypot(*final.held_out) / math.sqrt(channels),
     }
 
 
