@@ -17,7 +17,7 @@ from twin.kernels import fibre_layout as rig
 from twin.kernels.fibre_chain_layout import COUNT, POINT_MASS, SEGMENT, STIFFNESS
 
 Float = NDArray[np.float64]
-HEAVY = 1e12  # kg: 15 N must not move the drive
+HEAVY = 1e9  # kg: the fibre must not move the drive
 
 
 def solve(c: Float, nodes: Float, amplitude: float, omega: float, seconds: float, step: float) -> tuple[Float, float]:
