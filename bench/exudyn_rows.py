@@ -80,5 +80,6 @@ def ancf() -> Iterator[Row]:
         mine = float(np.abs(ours[:, 0] - fine).max() / np.ptp(fine))
         agreed = [found for found in tried if found[1] <= AGREE and found[2] <= step]
         theirs, off, _, label = min(agreed, default=(math.inf, math.inf, 0.0, "none"))
-        note = f"ours {seconds / computing:.1f}x real time; exudyn {seconds / theirs:.2g}x at {label}, u agrees to {off:.1e}"
+        note = f"ours {seconds / computing:.1f}x real time; exudyn {seconds / theirs:.2g}x at {label}"
+        note += f", u agrees to {off:.1e}"
         yield row(job, "exudyn", theirs / computing, mine, note)
