@@ -68,6 +68,7 @@ class Follower:
         return self.experiment
 
     def _phase(self, event: Phase) -> None:
+        self._serve_waiting()  # after a phase nothing may come for long
         state = State.RUNNING if self.experiment.state is State.STARTING else self.experiment.state
         self.tell(phase=event.name, state=state, passed=(*self.experiment.passed, event.name))
 
@@ -75,8 +76,7 @@ class Follower:
         self.tell(elapsed=event.elapsed, dropped=event.dropped, latency=self.latency.quantiles())
 
     def _finished(self, event: Finished) -> None:
-        if self._waiting:
-            self._serve(joined(self._waiting))
+        self._serve_waiting()
         state = ENDS[event.outcome]
         if event.trip is not None and event.trip.rule == "operator":
             state = State.EMERGENCY
@@ -96,6 +96,10 @@ class Follower:
         """Gather short blocks: a twin and a screen are served as well by fifty a second."""
         self._waiting.append(block)
         if sum(len(waiting.time) for waiting in self._waiting) >= GATHER:
+            self._serve_waiting()
+
+    def _serve_waiting(self) -> None:
+        if self._waiting:
             self._serve(joined(self._waiting))
             self._waiting.clear()
 

@@ -1,28 +1,36 @@
-"""Who goes first: the live stream before other programs' work, the work after a run behind it."""
+"""Who goes first: the live stream before other programs' work, the work after a run behind it.
+
+Nothing here is real-time: the server computes, and a process that computes in real time keeps the system's own ordinary
+workers waiting, through which the bytes of serial ports pass.
+"""
 
 from __future__ import annotations
 
 import os
 import sys
 from contextlib import suppress
+from pathlib import Path
 
-#: below the acquisition's and the instruments' real-time priorities; nice values where that is refused
-REAL_TIME, LIVE, AFTERWARDS = 1, -10, 10
+#: nice values, and the server's session's share of the processor
+LIVE, AFTERWARDS = -10, 10
 #: s after which a thread that waits for the interpreter gets it: an answer must not hold up the stream for long
 SWITCH_INTERVAL = 1e-3
 
 
 def prefer() -> None:
-    """This process first, as far as the system lets it; threads and processes that it starts inherit it.
+    """This process first among ordinary ones, as far as the system lets it; what it starts inherits that.
 
-    Real-time where it is allowed: nice values count only among processes of one session. Serving takes a fifth of a
-    core; everything heavy is done by processes that stand back.
+    Nice values count only among processes of one session, so the session's share is raised as well.
     """
     sys.setswitchinterval(SWITCH_INTERVAL)
-    try:
-        os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(REAL_TIME))
-    except (OSError, AttributeError):
-        _nice(LIVE)
+    with suppress(OSError):
+        Path("/proc/self/autogroup").write_text(str(LIVE))
+    first()
+
+
+def first() -> None:
+    """The calling thread before the other ordinary ones of its session."""
+    _nice(LIVE)
 
 
 def stand_back() -> None:

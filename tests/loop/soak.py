@@ -25,7 +25,7 @@ import numpy as np
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from api.priority import prefer
+from api.priority import first
 from tests.loop.ledger import gauge_values, ring_values
 from tests.loop.simulated import Simulated, simulated_stand
 
@@ -63,7 +63,7 @@ class Server:
 
     def watch(self) -> None:
         """Follow the live stream as a page does."""
-        prefer()  # what measures must not be late itself
+        first()  # what measures must not be late itself
         address = self.address.replace("http", "ws", 1) + "/live"
         with contextlib.suppress(ConnectionClosed), connect(address, max_size=None) as socket:
             while not self.leave.is_set():
