@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 
 #: the record is published this often while only time goes on, s
 EVERY = 0.25
-#: samples that are served at once, 20 ms
-GATHER = 40
+#: samples that are served at once, 20 ms; and where the newest came more than LATE s ago, to catch up
+GATHER, GATHER_MORE = 40, 200
+LATE = 0.06
 #: how a run's outcome reads; an emergency stop is a trip by the operator
 ENDS = {Outcome.FINISHED: State.FINISHED, Outcome.STOPPED: State.STOPPED, Outcome.TRIPPED: State.TRIPPED}
 
@@ -95,7 +96,8 @@ class Follower:
     def _block(self, block: LiveBlock) -> None:
         """Gather short blocks: a twin and a screen are served as well by fifty a second."""
         self._waiting.append(block)
-        if sum(len(waiting.time) for waiting in self._waiting) >= GATHER:
+        enough = GATHER_MORE if self._now() - block.newest_arrival > LATE else GATHER
+        if sum(len(waiting.time) for waiting in self._waiting) >= enough:
             self._serve_waiting()
 
     def _serve_waiting(self) -> None:

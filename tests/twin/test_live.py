@@ -13,9 +13,10 @@ from stand.recording import Recording, write_recording
 from stand.setup import System, nominal
 from tests.twin.reference import trapezoid
 from twin.live import LiveScore, LiveTwin, read_live, store_live
+from twin.live.lag import StreamLag
 from twin.model import FibreModel
 from twin.plugins import load
-from twin.score import pearson
+from twin.score import best_lag, pearson
 from twin.simulate import simulate
 
 FORCE = load(twin.models, "force", FibreModel)
@@ -52,6 +53,17 @@ def test_a_stand_that_is_the_model_scores_near_one_and_short_windows_come_near_t
     assert last.F.short_error < 1.0
     assert last.short_windows + last.passed_over >= 25
     assert last.dropped == 0
+
+
+@pytest.mark.parametrize("late", [0, 7, -31])
+def test_the_lag_summed_block_by_block_is_the_lag_of_the_whole_run(late: int) -> None:
+    run = stand(6.0)
+    measured, simulated = run["F"][200:-200], np.roll(run["F"], late)[200:-200]
+    lag = StreamLag(0.0005)
+    for i in range(0, len(measured), 40):
+        lag.push(measured[i : i + 40], simulated[i : i + 40])
+    assert lag.lag == pytest.approx(late * 0.0005, abs=2e-5)
+    assert lag.lag == pytest.approx(best_lag(measured, simulated, 0.0005), abs=5e-6)
 
 
 def test_block_size_changes_no_bit_of_what_is_simulated() -> None:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,9 +12,27 @@ from stand.setup import Setup
 from twin.kernels.hermite import drive_table
 from twin.live.columns import Columns
 from twin.model import FibreModel
-from twin.score.windows import HALF, WINDOW, WindowError, next_start, window_error
+from twin.score.windows import HALF, WINDOW, next_start, window_error
 
 Float = NDArray[np.float64]
+
+
+@dataclass(slots=True)
+class Errors:
+    """One channel's windows so far: how many, the sum of their squared rms, the latest rms."""
+
+    count: int = 0
+    squares: float = 0.0
+    latest: float = math.nan
+
+    def add(self, rms: float) -> None:
+        """One window more."""
+        self.count, self.squares, self.latest = self.count + 1, self.squares + rms * rms, rms
+
+    @property
+    def rms(self) -> float:
+        """Over all of them; NaN without one."""
+        return math.sqrt(self.squares / self.count) if self.count else math.nan
 
 
 class ShortWindows:
@@ -20,18 +41,8 @@ class ShortWindows:
     def __init__(self, setup: Setup, model: FibreModel, constants: Float, dt: float) -> None:
         self._setup, self._model, self._constants, self._dt = setup, model, constants, dt
         self._span, self._begin = round(WINDOW / dt), 0
-        self._errors: list[WindowError] = []
+        self.u, self.F = Errors(), Errors()
         self.passed_over = 0
-
-    @property
-    def u(self) -> Float:
-        """rms of u in each window, m."""
-        return np.array([error.u for error in self._errors])
-
-    @property
-    def F(self) -> Float:
-        """rms of F in each window, N."""
-        return np.array([error.F for error in self._errors])
 
     def follow(self, raw: Columns, gaps: list[int]) -> None:
         """Makes every restart whose samples have come since the last call; none across a gap."""
@@ -49,4 +60,6 @@ class ShortWindows:
             return
         drive = drive_table(raw["x"][low:high], self._dt)
         made = (self._setup, self._model, self._constants, drive, u, F)
-        self._errors.append(window_error(*made, at, self._dt, self._span))
+        found = window_error(*made, at, self._dt, self._span)
+        self.u.add(found.u)
+        self.F.add(found.F)

@@ -78,9 +78,9 @@ class LiveTwin:
         first = self._made.count
         self._advance(self._raw.count)
         self._score_new(first)
-        for track, name in zip(self._tracks, ("u", "F"), strict=True):
+        for track in self._tracks:
             if self._made.count > 8:
-                track.update_lag(self._raw[name][: self._made.count], self._made[name])
+                track.update_lag()
         return self._report(first, math.nan)
 
     def samples(self) -> dict[str, Float]:
@@ -162,8 +162,7 @@ class LiveTwin:
         self._short.follow(self._raw, self._gaps)
         if (last * self.dt) - self._lagged >= LAG_EVERY / 2:
             self._lagged, self._turn = last * self.dt, 1 - self._turn
-            name = ("u", "F")[self._turn]
-            self._tracks[self._turn].update_lag(self._raw[name][:last], self._made[name])
+            self._tracks[self._turn].update_lag()
 
     def _report(self, first: int, latency: float) -> LiveScore:
         last, load = self._made.count, self._busy / max(self._raw.count * self.dt, 1e-9)
@@ -179,7 +178,7 @@ class LiveTwin:
             F=self._tracks[1].score(self._short.F),
             samples=last,
             dropped=self.dropped,
-            short_windows=len(self._short.u),
+            short_windows=self._short.u.count,
             passed_over=self._short.passed_over,
             load=load,
             latency=latency,

@@ -66,6 +66,13 @@ class SlidingR:
         """Samples in the window."""
         return min(int(self.place[0]), self.ring.shape[1])
 
+    @property
+    def nrmse(self) -> float:
+        """rms(simulated - measured) over the measured range, of the window."""
+        measured = self.ring[0, : self.count]
+        span = float(np.ptp(measured)) if self.count else 0.0
+        return math.sqrt(max(0.0, self.total[10] + self.total[11]) / self.count) / span if span > 0.0 else math.nan
+
     def samples(self) -> tuple[Float, Float]:
         """Measured and simulated samples in the window, oldest first."""
         count, at = self.count, int(self.place[0]) % self.ring.shape[1]
