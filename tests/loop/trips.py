@@ -48,8 +48,8 @@ def trip_once(simulated: Simulated, folder: Path, wait: float) -> TripTime:
     last = handle.wait()
     if not isinstance(last, Finished) or last.outcome is not Outcome.TRIPPED:
         raise RuntimeError(f"the run did not trip: {last}")
-    if "force" not in last.why:
-        raise RuntimeError(f"the run tripped before the force was too large: {last.why}")
+    if last.trip is None or last.trip.rule != "force":
+        raise RuntimeError(f"the run tripped for another reason than too large a force: {last.why}")
     taken, handed = first_above(simulated.ledger, "force_gauge", stand.limits.force[1], before)
     stopped = before + (stop_after(simulated.ledger, before) or float("inf"))
     return TripTime(stopped - taken, stopped - handed, last)
