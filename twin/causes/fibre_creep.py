@@ -24,7 +24,7 @@ def _creep(q, p):  # type: ignore[no-untyped-def]
 
 
 def _scan(survey: Survey) -> Sequence[Values]:
-    return grid({"compliance": 2e-6}, time_constant=(0.1, 0.4, 1.5, 6.0))
+    return grid({}, compliance=(2e-6, 1.5e-5), time_constant=(0.1, 0.4, 1.5, 6.0))
 
 
 fibre_creep = Cause(
@@ -32,7 +32,7 @@ fibre_creep = Cause(
     title="a fibre that creeps",
     acts_on="fibre",
     parameters=(
-        Parameter("compliance", "m/N", 0.0, (0.0, 0.0001), 1e-06, "of the Kelvin-Voigt element, whole fibre"),
+        Parameter("compliance", "m/N", 0.0, (0.0, 0.0001), 5e-06, "of the Kelvin-Voigt element, whole fibre"),
         Parameter("time_constant", "s", 2.0, (0.05, 100.0), 1.0, "of its creep"),
     ),
     source=Source("assumed"),

@@ -16,6 +16,9 @@ Mask = NDArray[np.bool_]
 BAND = 5.0  # sigmas about a level that count as flat
 ABOVE = 9.0  # sigmas above it that no sample reaches
 ABRUPT = 1.6  # times what a parabola as long as the flat would have dropped a little beyond it
+GUIDE_END = 0.25  # m from rest, where the guide of the stand ends by its drawing: no deviation
+ONSET = 0.0025  # s from the touch until the speed has fallen enough to be seen
+NEAR, PASSED = 2e-3, 8e-3  # m about a stop that count as it, and that a weight may press into it
 #: channel: cause, samples a flat lasts at least, samples beyond it that are looked at, sigmas dropped there
 CHANNELS = (("dial-gauge-saturation", 16, 6, 40.0), ("force-gauge-saturation", 6, 4, 30.0))
 
@@ -78,3 +81,36 @@ def _flats(signal: Float, level: float, sigma: float, least: int, beyond: int, d
         if min(level - signal[a - beyond], level - signal[b + beyond - 1]) > needed:
             told.append((int(a), int(b)))
     return told
+
+
+def stop(runs: Sequence[Run]) -> Clip | None:
+    """A stop in the guide, from the weight's own motion: a fibre can't push, so a weight that goes up and is braked far
+    harder than by its weight and friction met something, each time at one place that it never passes by much.
+    """
+    if runs[0].setup.system is System.LINEAR_DRIVE:
+        return None
+    places: list[float] = []
+    for run in runs:
+        places += _braked(run)
+    if len(places) < 2:
+        return None
+    level = float(np.median(places))
+    highest = max(float(run.u.value.max()) for run in runs)
+    near = [p for p in places if abs(p - level) < NEAR]
+    if len(near) < max(2, 0.7 * len(places)) or highest > level + PASSED or level > GUIDE_END - PASSED:
+        return None
+    return Clip("end-stop", level, max(float(np.std(near)) / float(np.sqrt(len(near))), 7e-4), len(near), 10.0)
+
+
+def _braked(run: Run) -> list[float]:
+    """u where a brake begins that neither weight nor friction can be."""
+    half, gap = round(0.002 / run.dt), round(0.006 / run.dt)
+    v = (run.raw_u[2 * half :] - run.raw_u[: -2 * half]) / (2 * half * run.dt)  # v[i] at sample i + half
+    usual = 2.0 * (run.setup.rest_tension + run.setup.guide_friction) / run.setup.mass
+    fall = v[2 * gap :] - v[: -2 * gap]  # over 2 gap, about sample i + half + gap
+    hard = (fall < -0.12 - usual * 2 * gap * run.dt) & (v[: -2 * gap] > 0.1)
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], hard.astype(int), [0]])))
+    found = []
+    for a in edges[::2]:  # there the later of the two speeds has just begun to fall
+        found.append(float(run.raw_u[a + half + 2 * gap - round(ONSET / run.dt)]))
+    return found

@@ -83,6 +83,9 @@ def diagnose(
     elif beyond is not None and beyond.fitted is search.base:  # the catalogue's causes only stood in for it
         search.current, ranks, search.ladder = search.base, [], search.ladder[:1]
     progress("confirming on held-out windows", 0.85)
+    named = {c.name for c in search.current.model.causes} | {limit.cause for limit in limits}
+    if not named & {"end-stop", "dial-gauge-saturation"} and (met := clipped.stop(runs)) is not None:
+        limits.append(met)
     for limit in limits:
         _add(search, limit, catalogue)
         ranks.append(Standing(limit.cause, {}, 0.98, (), {}))
@@ -127,7 +130,7 @@ def _add(search: Search, limit: clipped.Clip, catalogue: Sequence[Cause]) -> Non
     cause = next(c for c in catalogue if c.name == limit.cause)
     current = search.current
     model = Composition(current.model.setups, (*current.model.causes, cause))
-    z = model.put(current.model.carry(current.z, model), cause, {"level": limit.level})
+    z = model.put(current.model.carry(current.z, model), cause, {cause.parameters[0].name: limit.level})
     search.current = Fitted(model, z, current.starts, current.residual, current.cost)
     search.ladder.append(search.current)
 

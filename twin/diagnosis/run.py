@@ -140,6 +140,8 @@ def _smooth_starts(run: Run) -> Index:
     _, _, left_u = polynomial(run.raw_u, places, 16, 4, run.dt)
     good = (left_u < 1.6 * run.noise_u) & (run.u.value[places] < _ceiling(run))
     good &= ~(np.convolve(run.bad.any(axis=1), np.ones(2 * CLEAR + 1), "same") > 0.5)[places]
+    if run.setup.system is System.WF:
+        good &= (places > _released(run)) | (places + LENGTH < round(REST / run.dt))
     if run.setup.system is System.WFPD:
         value, _, left = polynomial(run.raw_F, places, 16, 4, run.dt)
         low = np.min(np.lib.stride_tricks.sliding_window_view(run.F.value, 33)[places - 16], axis=1)
@@ -148,6 +150,14 @@ def _smooth_starts(run: Run) -> Index:
         good &= (left < limit) & (low > taut)
     chosen: Index = places[good]
     return chosen
+
+
+def _released(run: Run) -> int:
+    """The last sample at which the weight is held up by something that no model knows: high, still, the fibre slack."""
+    high = run.u.value > 0.8 * float(np.max(run.u.value))
+    held = high & (np.abs(run.u.rate) < 0.01) & (run.F.value < 0.25 * abs(run.rest_force))
+    places = np.flatnonzero(held)
+    return int(places[-1]) + CLEAR if len(places) else 0
 
 
 def _ceiling(run: Run) -> float:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from stand.setup import System
 from twin.causes._kind import Cause
+from twin.diagnosis.clipped import GUIDE_END, PASSED
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.coordinates import NO_FRICTION
 from twin.diagnosis.direct import screen
@@ -21,7 +22,7 @@ from twin.diagnosis.score import Scored, score, survey
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 SHORT_LIST = 7
-FINALISTS = 3
+FINALISTS = 4
 MOST = 4
 NEEDED = 0.012
 NEEDED_MORE = 0.012
@@ -251,8 +252,10 @@ def sound(problem: Problem, before: Fitted, after: Fitted) -> bool:
 
 
 def _within_reason(problem: Problem, fitted: Fitted, cause: Cause) -> bool:
-    """A patch is narrower than the travel."""
+    """A patch is narrower than the travel, a stop stands before the guide's own end."""
     values = fitted.model.values(fitted.z, cause)
+    if cause.name == "end-stop":
+        return abs(values["position"]) < GUIDE_END - PASSED or problem.system is System.LINEAR_DRIVE
     if cause.name != "guide-rough-patch":
         return True
     low, high = survey(problem).u

@@ -22,7 +22,7 @@ from twin.diagnosis.precision import covariance, stated
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.rivals import Standing
 from twin.diagnosis.score import Scored
-from twin.diagnosis.search import Search, error
+from twin.diagnosis.search import REACHED, Search, error
 from twin.diagnosis.unknown import Unknown
 from twin.diagnosis.verdict import Verdict
 from twin.extended import to_toml
@@ -134,7 +134,7 @@ def _cause(found: Evidence, search: Search, cause: Cause, spread: Any, rank: Sta
     for p in cause.parameters:
         i = fitted.model.index[("base", cause.base)] if cause.base else fitted.model.index[(cause.name, p.name)]
         std = math.sqrt(max(float(spread[i, i]), 0.0)) * fitted.model.coordinates[i].scale
-        null = p.value if p is cause.parameters[0] else 0.0
+        null = p.value if p is cause.parameters[0] and p.name not in (*REACHED, "frequency") else 0.0
         std = stated(std, abs(values[p.name] - null), _of_setup(fitted, cause))
         factor = conversion(p.unit, p.unit)
         parameters[p.name] = {"value": values[p.name] / factor, "std": std / factor, "units": p.unit}
@@ -163,13 +163,14 @@ def _of_setup(fitted: Fitted, cause: Cause) -> float:
 
 def _limited(cause: Json, limit: Clip) -> None:
     """A limit that was read off the records."""
-    told = cause["parameters"]["level"]
+    name, told = next(iter(cause["parameters"].items()))
     told["std"] = limit.std
     cause["strength"] = limit.strength
-    cause["evidence"] = [
-        f"{limit.flats} flat tops with steep ends stand at one highest level ({limit.cause}): level "
-        f"{told['value']:.4g} +- {told['std']:.2g} {told['units']}; what lies there was not used"
-    ]
+    seen = {
+        "end-stop": "times the weight was braked at one place far harder than by its weight and friction",
+    }.get(limit.cause, "flat tops with steep ends stand at one highest level, and were not used")
+    size = f"{name} {told['value']:.4g} +- {told['std']:.2g} {told['units']}"
+    cause["evidence"] = [f"{limit.flats} {seen} ({limit.cause}): {size}"]
 
 
 def _strength(search: Search, cause: Cause) -> float:
