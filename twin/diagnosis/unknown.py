@@ -15,6 +15,8 @@ from twin.diagnosis.search import Search, error, prior_price, without
 ENOUGH = 1.10
 SHARE = 0.10
 ALIKE = 0.8
+PLACES = ("weight_position", "drive_position", "pulley_angle")
+SPEEDS = ("weight_velocity", "drive_velocity")
 
 
 @dataclass(frozen=True)
@@ -52,7 +54,7 @@ def _best(problem: Problem, fitted: Fitted) -> Unknown | None:
         return None
     term = found[0]
     alike = [t.variable for t in found if t.gain > ALIKE * term.gain]
-    names = tuple(dict.fromkeys([term.variable, *_aliases(term.variable), *alike]))[:3]
+    names = tuple(dict.fromkeys([term.variable, *_aliases(term.variable), *alike]))[:4]
     before = float(error(problem, fitted.residual).max())
     refit = _refitted(problem, fitted, term)
     if refit is not None and (after := float(error(problem, refit.residual).max())) < 0.8 * before:
@@ -61,12 +63,11 @@ def _best(problem: Problem, fitted: Fitted) -> Unknown | None:
 
 
 def _aliases(variable: str) -> list[str]:
-    """What data can't tell apart, taut: the same motion on both sides of the pulley."""
-    return {
-        "weight_position": ["drive_position"], "pulley_angle": ["drive_position"],
-        "drive_position": ["weight_position"],
-        "weight_velocity": ["drive_velocity"], "drive_velocity": ["weight_velocity"], "frequency": ["time"],
-    }.get(variable, [])  # fmt: skip
+    """What data can't tell apart, taut: the same motion on both sides of the pulley and at its rim."""
+    for alike in (PLACES, SPEEDS):
+        if variable in alike:
+            return [name for name in alike if name != variable]
+    return ["time"] if variable == "frequency" else []
 
 
 def _refitted(problem: Problem, fitted: Fitted, term: Term) -> Fitted | None:
