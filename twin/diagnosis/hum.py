@@ -47,14 +47,15 @@ def _answers(line: Hum, other: Hum) -> bool:
     return other is not line and abs(other.frequency - line.frequency) < 0.3
 
 
-def _rest(recording: Recording) -> NDArray[np.bool_]:
-    """The rest at both ends."""
+def _rest(recording: Recording, tail: bool = True) -> NDArray[np.bool_]:
+    """The rest at both ends, or the one before any motion alone."""
     n, count = len(recording.time), round(REST / recording.dt)
     mask = np.zeros(n, bool)
     mask[:count] = True
+    if not tail:
+        return mask
     quiet = recording.channels["drive_position"] if "drive_position" in recording.channels else recording.time * 0
-    tail = quiet[-count // 2 :]
-    if np.ptp(tail) < 1e-3:
+    if np.ptp(quiet[-count // 2 :]) < 1e-3:
         mask[-count // 2 :] = True
     return mask
 
@@ -67,15 +68,23 @@ def _line(recordings: Sequence[Recording], signal: str, powers: Sequence[Float])
     if power.max() < SURE / len(recordings) + 8.0 or np.sum(power > 0.3 * power.max()) > 9:
         return None
     centre = float(grid[int(np.argmax(power))])
-    fine = np.arange(centre - 0.8, centre + 0.8, 0.01)
-    near = _powers(recordings, [signal], fine)[signal]
-    total = np.sum([own / s**2 for own, s in zip(near, sigma, strict=True)], axis=0)
-    frequency = float(fine[int(np.argmax(total))])
+    frequency = centre
+    for reach, step in (
+        (0.8, 0.01),
+        (0.012, 0.0004),
+    ):  # both rests together know it to a small part of 1/their distance
+        fine = np.arange(frequency - reach, frequency + reach, step)
+        near = _powers(recordings, [signal], fine)[signal]
+        total = np.sum([own / s**2 for own, s in zip(near, sigma, strict=True)], axis=0)
+        frequency = float(fine[int(np.argmax(total))])
     amplitudes = [float(np.hypot(*_amplitude(r, signal, frequency))) for r in recordings]
     amplitude, count = float(np.median(amplitudes)), float(np.mean([_rest(r).sum() for r in recordings]))
     s = float(np.median(sigma))
     std = s * np.sqrt(2.0 / count / len(recordings))
     if amplitude < 0.12 * s or min(amplitudes) < 0.4 * amplitude:
+        return None
+    before = [float(np.hypot(*_amplitude(r, signal, frequency, tail=False))) for r in recordings]
+    if float(np.median(before)) < 0.6 * amplitude:  # what rings after the motion is the stand's own
         return None
     spread = 0.35 * s / max(amplitude, 1e-12) / np.sqrt(count * len(recordings))
     return Hum(signal, frequency, float(spread), amplitude, float(std), amplitude / s / np.sqrt(2.0))
@@ -109,8 +118,8 @@ def _level(values: Float, mask: NDArray[np.bool_]) -> Float:
     return np.concatenate(out)
 
 
-def _amplitude(recording: Recording, signal: str, frequency: float) -> tuple[float, float]:
-    mask = _rest(recording)
+def _amplitude(recording: Recording, signal: str, frequency: float, tail: bool = True) -> tuple[float, float]:
+    mask = _rest(recording, tail)
     omega, time = 2 * np.pi * frequency, recording.time[mask]
     basis = np.column_stack([np.cos(omega * time), np.sin(omega * time)])
     a, b = np.linalg.lstsq(basis, _level(recording.channels[signal], mask), rcond=None)[0]
