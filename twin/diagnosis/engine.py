@@ -20,7 +20,7 @@ from twin.diagnosis.following import following
 from twin.diagnosis.found import Evidence, Step
 from twin.diagnosis.hum import find
 from twin.diagnosis.problem import Problem
-from twin.diagnosis.rivals import Standing, settle
+from twin.diagnosis.rivals import Standing, settle, tried
 from twin.diagnosis.run import choose, prepare
 from twin.diagnosis.search import Search, backward, calibrate, error, forward, gained, without
 from twin.diagnosis.tell import tell
@@ -89,7 +89,7 @@ def diagnose(
     for limit in limits:
         _add(search, limit, catalogue)
         ranks.append(Standing(limit.cause, {}, 0.98, (), {}))
-    found = confirm(problem, search, notes)
+    found = confirm(problem, search, ranks, notes)
     order = following(search, ranks)
     progress("writing the verdict", 0.95)
     verdict = tell(good, bad, search, found, catalogue, ranks, lines, limits, beyond, order)
@@ -158,7 +158,7 @@ def _searched(problem: Problem, per_run: int) -> np.ndarray:  # type: ignore[typ
     return keep
 
 
-def confirm(problem: Problem, search: Search, notes: list[str]) -> Evidence:
+def confirm(problem: Problem, search: Search, ranks: Sequence[Standing], notes: list[str]) -> Evidence:
     """Baseline, calibrated and final fits over all windows, and every rung's error on windows never fitted."""
     held = problem.part(problem.windows.held) if problem.windows.held.any() else problem
     ladder = []
@@ -175,7 +175,7 @@ def confirm(problem: Problem, search: Search, notes: list[str]) -> Evidence:
     calibrated = fixed(problem, search.base)
     final = fixed(problem, search.current)
     final = fit(problem, final.model, final.z, final.starts, iterations=4)
-    return Evidence(problem, nothing, calibrated, final, tuple(ladder), (), tuple(notes))
+    return Evidence(problem, nothing, calibrated, final, tuple(ladder), tried(search, ranks), tuple(notes))
 
 
 def fixed(problem: Problem, fitted: Fitted, *, stated: bool = False) -> Fitted:

@@ -10,6 +10,7 @@ import numpy as np
 from twin.causes._kind import Cause
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.fit import Fitted, fit, loss, scale
+from twin.diagnosis.found import Rival
 from twin.diagnosis.score import score
 from twin.diagnosis.search import NEEDED_MORE, Search, backward, begin, error, gained, prior_price, without
 
@@ -131,6 +132,22 @@ def _instead(search: Search, cause: Cause, rival: Cause) -> Fitted:
         return less
     model, z = begin(less, scored)
     return fit(problem, model, z, less.starts, iterations=10)
+
+
+def tried(search: Search, ranks: Sequence[Standing]) -> tuple[Rival, ...]:
+    """Every cause set that was refitted in a found cause's place, most probable first, for the page."""
+    told = []
+    for rank in ranks:
+        for name, behind in rank.behind.items():
+            probability = rank.probability * float(np.exp(-max(behind, 0.0) / (2 * TEMPER)))
+            told.append(_rival(search, rank.fits[name], probability))
+    return tuple(sorted(told, key=lambda r: -r.probability))
+
+
+def _rival(search: Search, fitted: Fitted, probability: float) -> Rival:
+    u, F = np.sqrt(error(search.problem, fitted.residual))
+    values = {c.name: fitted.model.values(fitted.z, c) for c in fitted.model.causes}
+    return Rival(tuple(values), (float(u), float(F)), probability, values)
 
 
 __all__ = ["Composition", "Standing", "standings"]

@@ -12,6 +12,9 @@ from twin.report.page import Cell, details, findings, number, paragraph, section
 Json = Mapping[str, Any]
 
 
+EXCITATION = {"frequency": "Hz", "amplitude": "m, peak to peak", "ramp": "s", "added_mass": "kg"}
+
+
 def ladder(v: Json) -> str:
     """Steps with errors in noise units."""
     rows = [
@@ -90,9 +93,9 @@ def next_experiment(v: Json) -> str:
     if not e:
         return ""
     x = e["excitation"]
-    rows = [(name.replace("_", " "), str(value)) for name, value in x.items()]
+    rows = [(name.replace("_", " "), str(value), EXCITATION.get(name, "")) for name, value in x.items()]
     between = f"It separates {', '.join(e['separates'])}. " if e.get("separates") else ""
-    return section("The next experiment", paragraph(f"{between}{e['why']}"), table(("Excitation (SI)", ""), rows))
+    return section("The next experiment", paragraph(f"{between}{e['why']}"), table(("Excitation", "", "unit"), rows))
 
 
 def runs(v: Json) -> str:
