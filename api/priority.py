@@ -17,7 +17,7 @@ SWITCH_INTERVAL = 1e-3
 
 
 def prefer() -> None:
-    """This process first among the ordinary ones of its session, as far as the system lets it; children inherit that."""
+    """This process first among its session's ordinary ones, as far as the system lets it; children inherit that."""
     sys.setswitchinterval(SWITCH_INTERVAL)
     first()
 
