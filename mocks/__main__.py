@@ -76,7 +76,7 @@ def add_process_options(parser: argparse.ArgumentParser) -> None:
 
 def run(stand: Runs, announce: Path | None, parent: int | None, failed: Callable[[], BaseException | None]) -> int:
     """Announce, then wait for a signal, the parent's end or a failure."""
-    from mocks.devices.priority import be_ordinary, keep_at_hand, raise_priority, stay_on_one_core
+    from mocks.devices.priority import be_ordinary, keep_at_hand, raise_priority
 
     sys.setswitchinterval(5e-5)
     ending = threading.Event()
@@ -85,7 +85,6 @@ def run(stand: Runs, announce: Path | None, parent: int | None, failed: Callable
     raise_priority()
     told = stand.start()
     be_ordinary()
-    stay_on_one_core()
     keep_at_hand()
     line = json.dumps(told)
     if announce:

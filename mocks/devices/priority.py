@@ -31,18 +31,6 @@ def be_ordinary() -> None:
         os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
 
 
-def stay_on_one_core() -> None:
-    """This process and its threads, of which only one computes at a time, on the last core of several.
-
-    Real-time threads that roam gather on one core now and then, and what the system must do there itself, handing over
-    the bytes of serial ports above all, waits for them (measured: 0.4 s).
-    """
-    with suppress(OSError, AttributeError):
-        last = {max(os.sched_getaffinity(0))}
-        for thread in os.listdir("/proc/self/task"):
-            os.sched_setaffinity(int(thread), last)
-
-
 def keep_at_hand() -> None:
     """Memory stays where it is once touched, and what lives now is no longer searched for garbage: both cost pauses."""
     with suppress(OSError, AttributeError):
