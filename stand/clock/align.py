@@ -164,6 +164,7 @@ def ring_track(name: str, stream: RingStream, config: DriveConfig, word_order: s
         1 / profile.trace.clock_hz,
         config.latency,
         config.latency_uncertainty,
+        judged=True,
     )
     ticks = np.concatenate(index)
     counts = {"samples": len(ticks), "lost": decoder.overrun, "polls": len(heads)}

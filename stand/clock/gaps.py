@@ -21,6 +21,8 @@ FORGIVEN = 40
 MENDS = 60
 #: of each such stretch, s, the promptest read tells whether it keeps to the clock, within a share of a frame period
 LEVEL, NEAR = 0.4, 0.2
+#: whether gaps are believed is judged by the promptest read in this many seconds
+FEW = 0.02
 #: reads are thinned to the promptest in this many seconds; a loss is placed with a second of reads beyond it
 THIN, HORIZON, SPAN = 0.004, 1.0, 10.0
 
@@ -67,18 +69,27 @@ def _believed(bounds: Bounds, reads: Reads, gaps: tuple[Gap, ...], period: float
     A host that is late for a while looks like a loss that is made good again, and a clock that runs a little fast
     takes in what is left of it: such a gap helps no other stretch.
     """
+    bounds, frames = _thinned(bounds, reads, period)
     held: tuple[Gap, ...] = ()
     best = _level(bounds, period)
     left = list(gaps)
     while left:
         trials = [Gap(gap.frame, count) for gap in left for count in sorted({gap.count, 1, 2, 3})]
-        levels = [_level(shift(bounds, reads.frames, (*held, trial)), period) for trial in trials]
+        levels = [_level(shift(bounds, frames, (*held, trial)), period) for trial in trials]
         if max(levels) <= best:
             break
         best, found = max(levels), trials[int(np.argmax(levels))]
         held = tuple(sorted((*held, found), key=lambda gap: gap.frame))
         left = [gap for gap in left if gap.frame != found.frame]
     return held
+
+
+def _thinned(bounds: Bounds, reads: Reads, period: float) -> tuple[Bounds, Int]:
+    """Only the promptest read of each short while, one-sided, and their frames: a line below all rests on such."""
+    keep = _promptest(bounds.before - period * bounds.early, bounds.before, FEW, 1)
+    early, before, none = bounds.early[keep], bounds.before[keep], slice(0)
+    late, after, read = bounds.late[none], bounds.after[none], bounds.read[none]
+    return replace(bounds, early=early, before=before, late=late, after=after, read=read), reads.frames[keep]
 
 
 def _level(bounds: Bounds, period: float) -> int:

@@ -11,7 +11,7 @@ and share (Pratt 1981).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,24 +21,39 @@ from stand.clock.model import Clock
 
 Float = NDArray[np.float64]
 
-#: share of the quickest polls that the likelihood uses, and the least scale of its error, s
-QUICK = 0.6
+#: of the quickest polls the likelihood uses as many as will do, within these shares: what took longer tells little of
+#: the clock and much of the host; and the least scale of its error, s
+ENOUGH, QUICK = 300, (0.3, 0.6)
 FLOOR = 2e-6
 #: how far from the middle of what a trip took too long the read may well be, as a share of it: 1/2 is its end
 SIDED = 0.25
+#: stretches of a run whose lines are compared
+STRETCHES = 6
 #: periods without a new sample after which the ring is taken to stand
 STILL = 2.5
 
 
 def fit_ring(
-    heads: NDArray[np.int64], request: Float, response: Float, period: float, latency: float, latency_sigma: float
+    heads: NDArray[np.int64],
+    request: Float,
+    response: Float,
+    period: float,
+    latency: float,
+    latency_sigma: float,
+    *,
+    judged: bool = False,
 ) -> Clock:
-    """The clock from polls: heads [k] samples written, request and response times s [k]."""
+    """The clock from polls: heads [k] samples written, request and response times s [k].
+
+    judged: its sigma also covers how unsteady the legs were, which takes some milliseconds to find.
+    """
     alive = moving(heads, request, period)
     heads, request, response = heads[alive], request[alive], response[alive]
     h = heads.astype(np.float64)
     start = line_between(h, request, h - 1, response, period)
-    line, fit_sigma = refine(start, h, request, response)
+    line, fit_sigma, brackets = refine(start, h, request, response)
+    if judged:
+        fit_sigma = float(np.hypot(fit_sigma, brackets.unsteadiness()))
     residual = float(np.median(response - line.at(h - 1)))
     sigma = float(np.hypot(fit_sigma, latency_sigma))
     drift = period / line.slope - 1
@@ -52,10 +67,10 @@ def moving(heads: NDArray[np.int64], request: Float, period: float) -> NDArray[n
     return alive if np.count_nonzero(alive) >= 10 else np.ones(len(heads), dtype=np.bool_)
 
 
-def refine(start: Line, h: Float, request: Float, response: Float) -> tuple[Line, float]:
-    """The likeliest line, by Newton's method from `start`, and one sigma of its values at the ends, s."""
+def refine(start: Line, h: Float, request: Float, response: Float) -> tuple[Line, float, _Brackets]:
+    """The likeliest line, by Newton's method from `start`, one sigma of its values at the ends s, and its polls."""
     trip = response - request
-    quick = trip <= np.quantile(trip, QUICK)
+    quick = trip <= np.quantile(trip, float(np.clip(ENOUGH / len(trip), *QUICK)))
     h, middle, trip = h[quick], (request + response)[quick] / 2, trip[quick]
     excess = trip - trip.min()
     scale = FLOOR + 0.25 * excess
@@ -68,7 +83,7 @@ def refine(start: Line, h: Float, request: Float, response: Float) -> tuple[Line
     intercept = start.intercept + float(shift[0]) - float(shift[1]) * centre / reach
     covariance = np.linalg.inv(-hessian)
     sigma = float(np.sqrt(covariance[0, 0] + covariance[1, 1]))
-    return Line(intercept, slope, start.margin), sigma
+    return Line(intercept, slope, start.margin), sigma, brackets.moved(shift)
 
 
 @dataclass(frozen=True)
@@ -103,6 +118,32 @@ class _Brackets:
         value -= 0.5 * float(weak[2] * shift[2] ** 2)
         gradient[2] -= weak[2] * shift[2]
         return value, gradient, hessian - np.diag(weak)
+
+    def moved(self, shift: Float) -> _Brackets:
+        """The same seen from the line moved by `shift`."""
+        late = shift[0] - self.excess * shift[2]
+        below, above = self.below + late + self.place_below * shift[1], self.above + late + self.place_above * shift[1]
+        return replace(self, below=below, above=above)
+
+    def unsteadiness(self) -> float:
+        """One sigma of what moves the line from stretch to stretch of the run beyond chance, s.
+
+        Where one leg of the trips grows with the host's load for seconds, each stretch has a line of its own.
+        """
+        found = np.array([self._level(part) for part in np.array_split(np.argsort(self.place_above), STRETCHES)])
+        excess = np.mean(found[:, 0] ** 2) * STRETCHES / (STRETCHES - 2) - np.mean(found[:, 1] ** 2)
+        return float(np.sqrt(max(0.0, excess)))
+
+    def _level(self, part: NDArray[np.int64]) -> tuple[float, float]:
+        """Where these polls alone put the line against where it is, and one sigma of that, s."""
+        scale = self.scale[part, None]
+        shifts = np.linspace(-1.0, 1.0, 201) * 4.0 * float(np.median(scale))
+        low, high = (self.below[part, None] + shifts) / scale, (self.above[part, None] + shifts) / scale
+        likely = np.sum(np.log(np.maximum(_logistic(high) - _logistic(low), 1e-300)), axis=0)
+        weight = np.exp(likely - likely.max())
+        weight /= weight.sum()
+        mean = float(weight @ shifts)
+        return mean, float(np.sqrt(weight @ (shifts - mean) ** 2))
 
 
 def _likeliest(brackets: _Brackets, longest: float) -> tuple[Float, Float]:

@@ -77,9 +77,16 @@ def _delayed(wires: Wires, seed: int, held: bool) -> dict[str, GaugeStream | Rin
     return found
 
 
-@pytest.mark.parametrize("timer", [0.016, None])
-@pytest.mark.parametrize("held", [True, False])
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize(
+    ("seed", "held", "timer"),
+    [
+        (1, True, 0.016),
+        (1, True, None),
+        (1, False, 0.016),
+        pytest.param(1, False, None, marks=pytest.mark.slow),  # every late stretch is searched for a loss
+        *[pytest.param(2, held, timer, marks=pytest.mark.slow) for held in (True, False) for timer in (0.016, None)],
+    ],
+)
 def test_a_busy_host_loses_no_frame_that_came_and_hides_none_that_did_not(
     seed: int, held: bool, timer: float | None
 ) -> None:
@@ -94,6 +101,22 @@ def test_a_busy_host_loses_no_frame_that_came_and_hides_none_that_did_not(
     assert {loss.instrument: loss.count for loss in aligned.losses} == {"force_gauge": 1, "dial_gauge": 3}
     for name, ((first, _),) in lost.items():
         assert found[name].time == pytest.approx(wires.epochs[name] + first * wires.periods[name], abs=0.05)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_where_one_leg_of_the_polls_grows_for_seconds_the_stated_error_of_x_covers_it(seed: int) -> None:
+    wires, rng = draw(seed), np.random.default_rng(seed)
+    ring = wires.streams["drive"]
+    assert isinstance(ring, RingStream)
+    time, late = ring.request_time - wires.origin, rng.exponential(3e-4, len(ring.request_time)) + 1e-4
+    asked = ring.request_time - late * ((time > 1.5) & (time < 4.0))
+    answered = ring.response_time + late * (time > 6.5)
+    busy = RingStream(ring.registers, asked, answered)
+    aligned = align({**wires.streams, "drive": busy}, wires.stand, wires.origin, wires.count)
+    assert time_error(wires, aligned, "drive") < 3 * aligned.clocks["drive"].sigma
+    x = wires.truth["drive"] - float(np.median(wires.truth["drive"][:800]))
+    rms = np.sqrt(np.mean((aligned.channels["drive_position"] - x) ** 2))
+    assert rms < 2 * aligned.uncertainty["drive_position"]
 
 
 def test_the_same_bytes_and_times_give_the_same_grid_bit_for_bit() -> None:
