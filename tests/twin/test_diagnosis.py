@@ -51,6 +51,16 @@ def test_a_viscous_drag_is_named_with_its_size_and_the_verdict_is_json() -> None
     json.dumps(verdict.to_json(), allow_nan=False)
 
 
+def test_a_slow_recorder_is_no_fault_of_the_axis() -> None:
+    def thinned(whole: Recording) -> Recording:
+        return replace(whole, time=whole.time[::8], channels={n: v[::8] for n, v in whole.channels.items()})
+
+    assert diagnose([thinned(axis())], options=QUICK).to_json()["causes"] == []
+    found = diagnose([thinned(axis(drag=15.0))], options=QUICK).to_json()["causes"]
+    assert [c["name"] for c in found] == ["guide-viscous-drag"]
+    assert found[0]["parameters"]["coefficient"]["value"] == pytest.approx(15.0, rel=0.05)
+
+
 def test_a_damaged_file_of_a_campaign_is_skipped_and_listed() -> None:
     good, bad = axis(), axis()
     dead = replace(bad, channels={**bad.channels, "drive_position": np.zeros(len(bad.time))})

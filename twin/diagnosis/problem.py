@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from stand.setup import System
 from twin.diagnosis.composition import Composition, Hooks
-from twin.diagnosis.run import BURN, HALF, LENGTH, Run, Windows
+from twin.diagnosis.run import BURN, LENGTH, Run, Windows, half
 from twin.diagnosis.smooth import curvature, gains, polynomial
 from twin.kernels import composed, composed_sense
 from twin.kernels import composed_slots as k
@@ -22,7 +22,7 @@ Index = NDArray[np.int64]
 WORKERS = 2
 STEP = 0.02
 _POOL = ThreadPoolExecutor(WORKERS)
-NEAREST = 3e-2
+FINE = 5e-4  # s between samples at which local polynomials follow any motion of a stand
 
 
 @dataclass
@@ -43,16 +43,30 @@ class Problem:
             np.concatenate([np.column_stack([r.u.value, r.u.rate, r.F.value, r.F.rate]) for r in self.runs])
         )
         self._polynomials()
-        self.sigma = np.array([[r.noise_u, r.noise_F] for r in self.runs])[self.windows.run]
+        self.sigma = np.array([[self._sigma(r), r.noise_F] for r in self.runs])[self.windows.run]
+
+    def _sigma(self, run: Run) -> float:
+        """One sigma of a place: the gauge's, and on an axis what the measured force's own noise adds until half-way."""
+        if self.system is not System.LINEAR_DRIVE:
+            return run.noise_u
+        span = 0.5 * self.dt * float(self.windows.use[..., 0].sum(axis=1).max(initial=0))
+        force = run.noise_F / (run.setup.moving_mass or 1.0)
+        return float(np.hypot(run.noise_u, force * np.sqrt(self.dt * span**3 / 3)))
 
     def _polynomials(self) -> None:
-        """u, u', F, F' around each start by local polynomials, at the shifts -HALF..HALF samples."""
+        """How far each start may lie from where local polynomials put it; at low rates these are biased, too."""
         w = self.windows
         self.spread = np.empty((len(w), 4))
         for r, run in enumerate(self.runs):
             mine = w.run == r
-            value, rate = gains(HALF, 3, self.dt)
-            self.spread[mine] = (max(run.noise_u * value, 3e-7), 1.5 * run.noise_u * rate, 15e-6, 0.03)
+            value, rate = gains(half(self.dt), 3, self.dt)
+            coarse = max(1.0, (self.dt / FINE) ** 2)
+            self.spread[mine] = (
+                max(run.noise_u * value, 3e-7) * coarse,
+                1.5 * run.noise_u * rate * coarse,
+                15e-6,
+                0.03,
+            )
 
     def part(self, keep: NDArray[Any]) -> Problem:
         """The same runs with some of the windows."""
@@ -194,9 +208,10 @@ class Problem:
         for r, run in enumerate(self.runs):
             mine = w.run == r
             raw = run.raw_u if channel == 0 else run.raw_F
-            places = np.clip(w.first[mine] + shift[mine], 2 * HALF, len(raw) - 2 * HALF - 1)
-            value[mine], rate[mine], _ = polynomial(raw, places, HALF, 3, self.dt)
-            second[mine] = curvature(raw, places, 2 * HALF, self.dt)
+            reach = half(self.dt)
+            places = np.clip(w.first[mine] + shift[mine], 2 * reach, len(raw) - 2 * reach - 1)
+            value[mine], rate[mine], _ = polynomial(raw, places, reach, 3, self.dt)
+            second[mine] = curvature(raw, places, 2 * reach, self.dt)
         return value, rate, second
 
     def _carry(

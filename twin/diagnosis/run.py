@@ -9,14 +9,17 @@ from numpy.typing import NDArray
 
 from stand.recording import Recording
 from stand.setup import Setup, System
-from twin.diagnosis.smooth import Smooth, gains, noise, polynomial, smooth
+from twin.diagnosis.smooth import Smooth, noise, polynomial, smooth
 
 Float = NDArray[np.float64]
 Index = NDArray[np.int64]
 REST = 0.4
 BURN = 24
 LENGTH = 184
-HALF = 12
+HALF = 0.006  # s about a start that its local polynomials take in
+SMOOTH = 0.008  # s about a start that must be smooth
+LASTS = 0.092  # s of a window that are used at least where the rate is low, or FEWEST samples
+FEWEST = 36
 CLEAR = 20  # samples about a start that must be good
 
 
@@ -113,6 +116,11 @@ class Windows:
         return Windows(self.run[keep], self.first[keep], self.data[keep], self.use[keep], self.held[keep])
 
 
+def half(dt: float, reach: float = HALF) -> int:
+    """Samples in `reach` seconds, and as many as a polynomial needs at a low rate."""
+    return max(4, round(reach / dt))
+
+
 def choose(runs: tuple[Run, ...], per_run: int) -> Windows:
     """Up to `per_run` windows of each run, starting in smooth taut stretches, spread over its motion."""
     firsts = [_spread(run, _smooth_starts(run), per_run) for run in runs]
@@ -127,6 +135,7 @@ def choose(runs: tuple[Run, ...], per_run: int) -> Windows:
     use[:, :BURN] = False
     if runs[0].setup.system is System.LINEAR_DRIVE:
         use[..., 1] = False  # the force drives there, it isn't predicted
+        use[:, BURN + max(FEWEST, round(LASTS / runs[0].dt)) :] = False
     held = np.concatenate([(np.arange(len(f)) // 2) % 2 == 1 for f in firsts]) if len(firsts) else np.zeros(0, bool)
     return Windows(run_of.astype(np.int64), first, data, use, held)
 
@@ -137,7 +146,7 @@ def _smooth_starts(run: Run) -> Index:
     places = np.arange(40, n - LENGTH - 24)
     if len(places) <= 0:
         return np.zeros(0, np.int64)
-    _, _, left_u = polynomial(run.raw_u, places, 16, 4, run.dt)
+    _, _, left_u = polynomial(run.raw_u, places, half(run.dt, SMOOTH), 4, run.dt)
     good = (left_u < 1.6 * run.noise_u) & (run.u.value[places] < _ceiling(run))
     good &= ~(np.convolve(run.bad.any(axis=1), np.ones(2 * CLEAR + 1), "same") > 0.5)[places]
     if run.setup.system is System.WF:
@@ -190,9 +199,3 @@ def _evenly(starts: Index, count: int) -> Index:
     pick = np.unique(np.linspace(0, len(spaced) - 1, min(count, len(spaced))).round().astype(int))
     picked: Index = np.array(spaced, dtype=np.int64)[pick]
     return picked
-
-
-def start_spread(run: Run) -> tuple[float, float]:
-    """One sigma of a start's place and speed as read from the record, m and m/s."""
-    value, rate = gains(HALF, 3, run.dt)
-    return run.noise_u * value, run.noise_u * rate
