@@ -32,14 +32,28 @@ class Hum:
 
 def find(recordings: Sequence[Recording]) -> tuple[list[Recording], list[Hum]]:
     """The recordings without their lines, and the lines: each stands at rest in one signal of every run."""
+    if not all(_rests(r) for r in recordings):
+        return list(recordings), []
     signals = [s for s in SIGNALS if all(s in r.channels for r in recordings)]
-    power = _powers(recordings, signals, np.arange(LOWEST, HIGHEST, 0.5))
+    power = _powers(recordings, signals, _grid(recordings))
     found = [h for s in signals if (h := _line(recordings, s, power[s])) is not None]
     alone = [h for h in found if not any(_answers(h, other) for other in found)]
     cleaned = list(recordings)
     for line in alone:
         cleaned = [_without(r, line) for r in cleaned]
     return cleaned, alone
+
+
+def _grid(recordings: Sequence[Recording]) -> Float:
+    """Frequencies that are looked at, Hz: below what the slowest recording can tell."""
+    return np.arange(LOWEST, max(min(HIGHEST, *(0.45 / r.dt for r in recordings)), LOWEST + 1.0), 0.5)
+
+
+def _rests(recording: Recording) -> bool:
+    """Whether it begins with a rest, and is fast enough to tell a hum from motion."""
+    count = round(REST / recording.dt)
+    still = all(np.ptp(v[:count]) < 1e-3 for n, v in recording.channels.items() if n.endswith("_position"))
+    return still and 0.45 / recording.dt > 2 * LOWEST
 
 
 def _answers(line: Hum, other: Hum) -> bool:
@@ -61,7 +75,7 @@ def _rest(recording: Recording, tail: bool = True) -> NDArray[np.bool_]:
 
 
 def _line(recordings: Sequence[Recording], signal: str, powers: Sequence[Float]) -> Hum | None:
-    grid, sigma = np.arange(LOWEST, HIGHEST, 0.5), [noise(r.channels[signal]) for r in recordings]
+    grid, sigma = _grid(recordings), [noise(r.channels[signal]) for r in recordings]
     power = np.zeros(len(grid))
     for own, s in zip(powers, sigma, strict=True):
         power += own / max(s, 1e-12) ** 2 / len(recordings)
