@@ -109,8 +109,10 @@ def _numbers(results: Sequence[Result]) -> list[str]:
 
 
 def _reliability(results: Sequence[Result]) -> list[str]:
-    """Stated probabilities against frequencies in five bins, and the expected calibration error."""
-    said = [pair for r in results for pair in zip(r["probability"], r["right"], strict=True)]
+    """Stated probabilities of the named causes against how often they were hidden, and the expected calibration
+    error.
+    """
+    said = [(p, name in r["hidden"]) for r in results for p, name in zip(r["probability"], r["named"], strict=True)]
     if not said:
         return []
     lines, error = ["probability stated   how often right"], 0.0
