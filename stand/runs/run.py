@@ -67,8 +67,7 @@ def perform(rig: Rig, order: RunOrder, path: Path) -> Finished:
     rig.read(preparing_rules(stand))
     _prepare(rig, order, motion.rest_travel)
     recorder = Recorder(path, _file_plan(stand, order, identities, motion.duration))
-    with ahead():
-        recorder.start()
+    recorder.start()
     span, ending = Span(), Ending()
     try:
         _record(rig, recorder, motion, span, ending)
