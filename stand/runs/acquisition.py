@@ -18,7 +18,6 @@ from stand.errors import StandError
 from stand.recorder import Happening, Recorder, Taken
 from stand.runs.health import Meter
 from stand.runs.messages import Health
-from stand.runs.priority import relent
 from stand.safety import Supervisor
 from stand.transport.poll_reader import PollReader
 from stand.transport.raw import Raw
@@ -118,7 +117,6 @@ class Acquisition:
             self._recorder.put(Happening(self._clock(), kind, text))
 
     def _serve_live(self) -> None:
-        relent()  # it computes
         told = self._clock()
         while (block := self._live.get()) is not None:
             aligner = self._aligner

@@ -67,7 +67,8 @@ def perform(rig: Rig, order: RunOrder, path: Path) -> Finished:
     rig.read(preparing_rules(stand))
     _prepare(rig, order, motion.rest_travel)
     recorder = Recorder(path, _file_plan(stand, order, identities, motion.duration))
-    recorder.start()
+    with ahead():
+        recorder.start()
     span, ending = Span(), Ending()
     try:
         _record(rig, recorder, motion, span, ending)
