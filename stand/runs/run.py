@@ -19,6 +19,7 @@ from stand.runs.priority import ahead
 from stand.runs.rig import Rig
 from stand.runs.rules import guide_rule, preparing_rules, standing_rules
 from stand.runs.streams import stream_specs
+from stand.safety import Trip
 from stand.targets import make_folder
 
 AFTER_TRIP = 0.3
@@ -185,7 +186,9 @@ class Moment:
         if elapsed >= self._told + TELL:
             self._told = elapsed
             self.rig.publish(Progress(elapsed, self.motion.duration, 0, 0))
-        return self.rig.halt.wanted() or self.rig.guardian.check() is not None
+        if (why := self.rig.guardian.check()) is not None:
+            self.rig.supervisor.raise_trip(Trip("guardian", why, arrival=time.monotonic()))
+        return self.rig.halt.wanted()
 
     def end(self) -> None:
         """The grid's end: the plan's, or now; then wait for what is still on its way."""

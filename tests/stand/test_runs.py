@@ -6,6 +6,7 @@ import os
 import signal
 from datetime import UTC, datetime
 from multiprocessing import Pipe
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,8 +17,11 @@ from stand.config import load_stand
 from stand.errors import DeviceError, InputError
 from stand.excitation.spec import Excitation, Shape
 from stand.runs import Failed, Phase, Progress, RunOrder, Step, StepOrder, jog, raised, start, status
+from stand.runs.halt import Halt
 from stand.runs.health import Meter
 from stand.runs.link import LIVE_WAITING, Tap
+from stand.runs.run import Moment, Span
+from stand.safety import Trip
 
 
 def live(first: int) -> LiveBlock:
@@ -87,3 +91,21 @@ def test_a_meter_knows_rate_age_and_recent_values() -> None:
     assert health.rate == pytest.approx(2000 / 1.05)
     assert meter.read(1.3).state == "stale"
     assert set(meter.recent()) == {5.0, 6.0, 7.0, 8.0, 9.0}
+
+
+def test_a_run_whose_guardian_falls_silent_is_tripped_and_never_called_finished() -> None:
+    halt, trips = Halt(), []
+
+    def raise_trip(trip: Trip) -> None:
+        trips.append(trip)
+        halt.want(str(trip))
+
+    rig = SimpleNamespace(
+        guardian=SimpleNamespace(check=lambda: "no heartbeat for 0.300 s"),
+        supervisor=SimpleNamespace(raise_trip=raise_trip),
+        halt=halt,
+        publish=lambda event: None,
+    )
+    moment = Moment(rig, SimpleNamespace(duration=1.0), Span())  # type: ignore[arg-type]
+    assert moment.should_stop()
+    assert trips[0].rule == "guardian"
