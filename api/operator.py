@@ -60,13 +60,14 @@ class Operator:
         self._status: dict[str, Any] = {}
         self._closing = threading.Event()
         self._tripped = ""
+        self._model_state = "compiling"
 
     def open(self, loop: asyncio.AbstractEventLoop) -> None:
         """Begin: the live stream runs on `loop`; the devices are asked how they are."""
         self.hub.bind(loop)
         self._tell_stand("connecting", resting(self.stand, "unknown"))
         threading.Thread(target=self._look_now_and_then, name="status", daemon=True).start()
-        threading.Thread(target=make_twin, args=("force", self.stand.setup), name="warm", daemon=True).start()
+        threading.Thread(target=self._warm, name="warm", daemon=True).start()
 
     def close(self) -> None:
         """Stop what runs, in good order, and end the jobs."""
@@ -220,8 +221,21 @@ class Operator:
     def _job_changed(self, job: Job) -> None:
         self.hub.publish_state(f"job {job.id}", {"type": "job", **job.view()})
 
+    def _warm(self) -> None:
+        """Have the first model compiled before a run wants it."""
+        try:
+            make_twin("force", self.stand.setup)
+            self._model_state = "ready"
+        except Exception as error:
+            self._model_state = f"none: {error}"
+        self._status = self._status | {"model": self._model_state}
+        self.hub.publish_state("stand", self._status)
+
     def _tell_stand(self, state: str, devices: list[dict[str, Any]], message: str = "") -> None:
-        self._status = {"name": self.title, "state": state, "message": message, "devices": devices}
+        if state == "ready" and not message and self._model_state == "compiling":
+            message = "the model is being compiled, once: a run that ends before shows its simulation afterwards"
+        told = {"name": self.title, "state": state, "message": message, "model": self._model_state}
+        self._status = {**told, "devices": devices}
         self.hub.publish_state("stand", self._status)
 
     def _look_now_and_then(self) -> None:

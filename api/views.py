@@ -67,6 +67,9 @@ class StandView(BaseModel):
     name: str = Field(examples=["nominal"])
     state: str = Field(examples=["ready"], description="connecting, ready, moving, tripped, disconnected")
     message: str = Field(examples=[""], description="why it is tripped or disconnected")
+    model: str = Field(
+        default="compiling", examples=["ready"], description="of the live twin: compiling, ready, or why there is none"
+    )
     devices: list[DeviceView]
 
 

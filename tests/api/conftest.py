@@ -91,7 +91,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
     with httpx.Client(base_url=url, headers={"Authorization": f"Bearer {token}"}, timeout=30.0) as http:
         found = Server(url, token, folder, http)
         _wait_until_it_answers(http)
-        found.until("/stand", lambda stand: stand.get("state") == "ready")
+        found.until("/stand", lambda stand: stand.get("state") == "ready" and stand.get("model") == "ready", 120.0)
         yield found
     process.terminate()
     process.wait(20.0)
