@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 
+import pytest
+
 from api.beside import judged, reasons, table_rows
 from api.catalogue import describe_situations
 from api.orders import Order
 from api.simulations import ordered
 
 
+@pytest.mark.slow
 def test_a_slow_situation_gives_one_r_for_both_dampings_and_says_why_s1_has_two() -> None:
     published = next(s["published_R"] for s in describe_situations() if s["name"] == "11")
     found = judged(ordered(Order(situation="11")), ["force", "force-damping"], lambda what, share: None)
