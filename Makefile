@@ -28,7 +28,7 @@ demo: install ## one experiment on a simulated stand that hides an effect, compa
 test: install lint quick ## lint, types, import contracts and the quick tests
 
 # what moves on wires in real time goes after the rest and alone: two at once would measure each other
-WIRES := tests/loop tests/stand/test_profiles.py
+WIRES := tests/loop tests/stand/test_profiles.py tests/api/test_server.py tests/api/test_access.py tests/api/test_next.py
 
 quick: install
 	$(BIN)/python -m pytest -n 2 $(WIRES:%=--ignore=%)
