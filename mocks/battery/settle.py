@@ -16,6 +16,7 @@ from mocks.plant.motion import targets
 from mocks.plant.plant import GRID, Plant
 
 WINDOWS, SECONDS = 5, 7.5
+STEP = 4.0  # times the wanted strength, at which the effect's power law is read a second time
 NEAR = 1.25  # a strength within this factor of the wanted one is left alone
 #: effects that show only where the motion reaches: (signal, parameter)
 REACH = {
@@ -54,14 +55,11 @@ def _measure(case: Case, hidden: Mapping[str, Mapping[str, Value]]) -> float:
 def _moved(name: str, values: Mapping[str, Value], measured: float, wanted: float) -> dict[str, Value]:
     """The size that would be as strong as wanted by the effect's power law through what was measured."""
     main = main_size(find(name))
-    null = distance_of(main)[0]
-    power = math.log(wanted / max(measured, 1e-3)) / math.log(4.0)
+    null, low, high = distance_of(main)
     here = float(values[main.name])
-    slope = max(
-        abs(math.log(abs((size_for(name, 4.0 * wanted) - null) / (size_for(name, wanted) - null))) / math.log(4.0)), 0.1
-    )
-    factor = math.exp(float(np.clip(power * slope * math.log(4.0), -2.5, 2.5)))
-    low, high = distance_of(main)[1:]
+    near, far = (abs(size_for(name, times * wanted) - null) for times in (1.0, STEP))
+    slope = max(abs(math.log(far / near)) / math.log(STEP), 0.1)
+    factor = math.exp(float(np.clip(slope * math.log(wanted / max(measured, 1e-3)), -2.5, 2.5)))
     distance = min(max(abs(here - null) * factor, low), high)
     return dict(values) | {main.name: null + math.copysign(distance, here - null)}
 

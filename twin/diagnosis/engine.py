@@ -28,6 +28,7 @@ from twin.diagnosis.unknown import look
 from twin.diagnosis.verdict import Verdict
 from twin.plugins import every
 
+#: share by which a cause must lower the error on windows that were not fitted
 CONFIRMED = 0.01
 Progress = Callable[[str, float], None]
 
@@ -59,12 +60,13 @@ def diagnose(
     progress("audit", 0.0)
     good, bad, notes = audit_all(recordings, skipped)
     good, lines = find(good)
-    runs, limits = clipped.find([prepare(r) for r in good])
+    catalogue = known(good[0].setup.system, options.causes)
+    considered = frozenset(c.name for c in catalogue)
+    runs, limits = clipped.find([prepare(r) for r in good], considered)
     problem = Problem(runs, choose(runs, options.windows))
     if len(problem.windows) < 4:
         remedy = "Record motion that leaves the fibre taut now and then, for longer"
         raise InputError("no stretch of motion from which a window could be started", where=good[0].name, remedy=remedy)
-    catalogue = known(runs[0].setup.system, options.causes)
     progress("calibrating", 0.15)
     trained = problem.part(_searched(problem, options.searched))
     able = [c for c in catalogue if c.how != "line" and c.name not in {limit.cause for limit in limits}]
@@ -84,8 +86,8 @@ def diagnose(
         search.current, ranks, search.ladder = search.base, [], search.ladder[:1]
     progress("confirming on held-out windows", 0.85)
     named = {c.name for c in search.current.model.causes} | {limit.cause for limit in limits}
-    if not named & {"end-stop", "dial-gauge-saturation"} and (met := clipped.stop(runs)) is not None:
-        limits.append(met)
+    if "end-stop" in considered and not named & {"end-stop", "dial-gauge-saturation"}:
+        limits += clipped.stop(runs)
     for limit in limits:
         _add(search, limit, catalogue)
         ranks.append(Standing(limit.cause, {}, 0.98, (), {}))
@@ -109,9 +111,8 @@ def judge(search: Search, held: Problem) -> bool:
         for cause in search.current.model.causes:
             if cause.base is not None:
                 continue
-            thinner = (
-                search.base if len(search.current.model.causes) == 1 else without(search.problem, search.current, cause)
-            )
+            alone = len(search.current.model.causes) == 1
+            thinner = search.base if alone else without(search.problem, search.current, cause)
             gain = gained(held, fixed(held, thinner), now)
             if gain < CONFIRMED:
                 idle.append((gain, thinner))

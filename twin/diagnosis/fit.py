@@ -120,6 +120,11 @@ def linearise(
     return Linear(columns, own, weighted, prior, np.maximum(root.reshape(flat), 1e-30))
 
 
+def slopes(problem: Problem, fitted: Fitted) -> Linear:
+    """Every column, anew, where a fit stands and on its own scale."""
+    return linearise(problem, fitted, scale(problem, fitted.residual), np.ones(len(fitted.z), bool))
+
+
 def _moved(starts: Float, axis: int) -> Float:
     moved = starts.copy()
     moved[:, axis] += START_STEP

@@ -15,6 +15,8 @@ Float = NDArray[np.float64]
 LOWEST, HIGHEST = 35.0, 420.0
 SURE = 45.0
 REST = 0.9
+#: reach and step, Hz, of each closer look: both rests together know a line to a small part of 1/their distance
+ZOOM = (0.8, 0.01), (0.012, 0.0004)
 SIGNALS = ("fibre_force", "weight_position", "drive_position")
 
 
@@ -35,8 +37,9 @@ def find(recordings: Sequence[Recording]) -> tuple[list[Recording], list[Hum]]:
     if not all(_rests(r) for r in recordings):
         return list(recordings), []
     signals = [s for s in SIGNALS if all(s in r.channels for r in recordings)]
-    power = _powers(recordings, signals, _grid(recordings))
-    found = [h for s in signals if (h := _line(recordings, s, power[s])) is not None]
+    grid = _grid(recordings)
+    power = _powers(recordings, signals, grid)
+    found = [h for s in signals if (h := _line(recordings, s, grid, power[s])) is not None]
     alone = [h for h in found if not any(_answers(h, other) for other in found)]
     cleaned = list(recordings)
     for line in alone:
@@ -74,19 +77,15 @@ def _rest(recording: Recording, tail: bool = True) -> NDArray[np.bool_]:
     return mask
 
 
-def _line(recordings: Sequence[Recording], signal: str, powers: Sequence[Float]) -> Hum | None:
-    grid, sigma = _grid(recordings), [noise(r.channels[signal]) for r in recordings]
+def _line(recordings: Sequence[Recording], signal: str, grid: Float, powers: Sequence[Float]) -> Hum | None:
+    sigma = [noise(r.channels[signal]) for r in recordings]
     power = np.zeros(len(grid))
     for own, s in zip(powers, sigma, strict=True):
         power += own / max(s, 1e-12) ** 2 / len(recordings)
     if power.max() < SURE / len(recordings) + 8.0 or np.sum(power > 0.3 * power.max()) > 9:
         return None
-    centre = float(grid[int(np.argmax(power))])
-    frequency = centre
-    for reach, step in (
-        (0.8, 0.01),
-        (0.012, 0.0004),
-    ):  # both rests together know it to a small part of 1/their distance
+    frequency = float(grid[int(np.argmax(power))])
+    for reach, step in ZOOM:
         fine = np.arange(frequency - reach, frequency + reach, step)
         near = _powers(recordings, [signal], fine)[signal]
         total = np.sum([own / s**2 for own, s in zip(near, sigma, strict=True)], axis=0)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from stand.setup import System
 from twin.causes._kind import Cause
 from twin.diagnosis.composition import Composition
-from twin.diagnosis.fit import Fitted, linearise, reduce, scale, weigh
+from twin.diagnosis.fit import Fitted, reduce, scale, slopes, weigh
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.run import LENGTH
 from twin.kernels import composed_latent as kernels
@@ -70,7 +70,7 @@ class Grams:
 def terms(problem: Problem, fitted: Fitted) -> list[Term]:
     """Every place with every variable it may depend on, most explaining first (less a price per knot)."""
     spread = scale(problem, fitted.residual)
-    linear = linearise(problem, fitted, spread, np.ones(len(fitted.z), bool))
+    linear = slopes(problem, fitted)
     reduced = reduce(linear, fitted.starts, fitted.z)
     inverse = np.linalg.pinv(reduced.matrix, rcond=1e-12)
     simulated, _ = problem.simulate(fitted.model, fitted.z, fitted.starts)

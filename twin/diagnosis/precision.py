@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from twin.diagnosis.fit import Fitted, linearise, reduce, scale
+from twin.diagnosis.fit import Fitted, reduce, slopes
 from twin.diagnosis.problem import Problem
 
 Float = NDArray[np.float64]
@@ -19,8 +19,7 @@ def covariance(problem: Problem, fitted: Fitted) -> tuple[Float, Float]:
     The windows' own scores say how much the fit would move (a sandwich), so noise that is not white, noise of x and
     small faults of the model count; priors enter as measurements of their own.
     """
-    free = np.ones(len(fitted.z), bool)
-    linear = linearise(problem, fitted, scale(problem, fitted.residual), free)
+    linear = slopes(problem, fitted)
     reduced = reduce(linear, fitted.starts, fitted.z)
     own = linear.starts.transpose(1, 0, 2)
     right = np.einsum("wsl,wl->ws", own, linear.residual)

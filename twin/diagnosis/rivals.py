@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from twin.causes._kind import Cause
-from twin.diagnosis.composition import Composition
-from twin.diagnosis.fit import Fitted, fit, loss, scale
+from twin.diagnosis.fit import Fitted, fit, loss, scale, slopes
 from twin.diagnosis.found import Rival
 from twin.diagnosis.score import score
-from twin.diagnosis.search import NEEDED_MORE, Search, backward, begin, error, gained, prior_price, without
+from twin.diagnosis.search import NEEDED, Search, backward, begin, error, gained, prior_price, without
 
 TEMPER = 8.0
 ALIKE = 40.0
@@ -45,30 +44,13 @@ def settle(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
         ranks = standings(search, catalogue)
         better = [(d, r.fits[n]) for r in ranks for n, d in r.behind.items() if d < -CLEARLY]
         chosen = min(better, key=lambda pair: pair[0])[1] if better else None
-        chosen = chosen or _third(search, catalogue) or _merged(search, ranks)
+        chosen = chosen or _merged(search, ranks)
         if chosen is None:
             return ranks
         search.current = chosen
         search.ladder.append(search.current)
         backward(search)
     return standings(search, catalogue)
-
-
-def _third(search: Search, catalogue: Sequence[Cause]) -> Fitted | None:
-    """Where two of three clocks run alike, it is the third that drifts, the other way."""
-    problem, now = search.problem, search.current
-    pair = [c for c in now.model.causes if c.key == "instrument"]
-    rest = [c for c in catalogue if c.key == "instrument" and c.name not in {p.name for p in pair}]
-    if len(pair) != 2 or len(rest) != 1:
-        return None
-    rates = [now.model.values(now.z, c)["rate"] for c in pair]
-    if abs(rates[0] - rates[1]) > 0.2 * max(abs(r) for r in rates):
-        return None
-    others = tuple(c for c in now.model.causes if c not in pair)
-    model = Composition(now.model.setups, (*others, rest[0]))
-    z = model.put(now.model.carry(now.z, model), rest[0], {"rate": -sum(rates) / 2})
-    one = fit(problem, model, z, now.starts, iterations=8)
-    return one if gained(problem, one, now) < NEEDED_MORE else None
 
 
 def _merged(search: Search, ranks: Sequence[Standing]) -> Fitted | None:
@@ -81,7 +63,7 @@ def _merged(search: Search, ranks: Sequence[Standing]) -> Fitted | None:
                 if len(model.causes) < 2 or cause.name == name:
                     continue
                 thinner = without(problem, rank.fits[name], cause)
-                if gained(problem, thinner, search.current) < NEEDED_MORE:
+                if gained(problem, thinner, search.current) < NEEDED:
                     return thinner
     return None
 
@@ -127,7 +109,7 @@ def _instead(search: Search, cause: Cause, rival: Cause) -> Fitted:
         if {c.name for c in f.model.causes} == want:
             return fit(problem, f.model, f.z, f.starts, iterations=6)
     less = without(problem, final, cause, iterations=3)
-    scored = score(problem, less, [rival])[0]
+    scored = score(problem, less, [rival], slopes(problem, less))[0]
     if not scored.trials:
         return less
     model, z = begin(less, scored)
@@ -150,4 +132,4 @@ def _rival(search: Search, fitted: Fitted, probability: float) -> Rival:
     return Rival(tuple(values), (float(u), float(F)), probability, values)
 
 
-__all__ = ["Composition", "Standing", "standings"]
+__all__ = ["Standing", "settle", "tried"]

@@ -143,17 +143,18 @@ def choose(runs: tuple[Run, ...], per_run: int) -> Windows:
 def _smooth_starts(run: Run) -> Index:
     """Samples from which a window can begin: taut, no impact within 16 samples, not too near the ends."""
     n = len(run.raw_u)
-    places = np.arange(40, n - LENGTH - 24)
+    reach = half(run.dt, SMOOTH)
+    places = np.arange(max(40, reach), n - max(LENGTH + 24, reach))
     if len(places) <= 0:
         return np.zeros(0, np.int64)
-    _, _, left_u = polynomial(run.raw_u, places, half(run.dt, SMOOTH), 4, run.dt)
+    _, _, left_u = polynomial(run.raw_u, places, reach, 4, run.dt)
     good = (left_u < 1.6 * run.noise_u) & (run.u.value[places] < _ceiling(run))
     good &= ~(np.convolve(run.bad.any(axis=1), np.ones(2 * CLEAR + 1), "same") > 0.5)[places]
     if run.setup.system is System.WF:
         good &= (places > _released(run)) | (places + LENGTH < round(REST / run.dt))
     if run.setup.system is System.WFPD:
-        value, _, left = polynomial(run.raw_F, places, 16, 4, run.dt)
-        low = np.min(np.lib.stride_tricks.sliding_window_view(run.F.value, 33)[places - 16], axis=1)
+        value, _, left = polynomial(run.raw_F, places, reach, 4, run.dt)
+        low = np.min(np.lib.stride_tricks.sliding_window_view(run.F.value, 2 * reach + 1)[places - reach], axis=1)
         limit = 1.6 * run.noise_F + 0.004 * np.abs(value)
         taut = np.minimum(4.0, 0.3 * abs(run.rest_force))
         good &= (left < limit) & (low > taut)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from twin.causes._kind import Cause, Survey
 from twin.diagnosis.composition import Composition
-from twin.diagnosis.fit import FLOOR, Fitted, linearise, reduce, scale, weigh
+from twin.diagnosis.fit import FLOOR, Fitted, Linear, reduce, scale, weigh
 from twin.diagnosis.problem import Problem
 
 Float = NDArray[np.floating[Any]]
@@ -49,11 +49,11 @@ def survey(problem: Problem) -> Survey:
     )  # fmt: skip
 
 
-def score(problem: Problem, fitted: Fitted, causes: Iterable[Cause], *, share: float = 0.5) -> list[Scored]:
-    """All causes, best first. Base values (with their priors) and the windows' starts are projected out."""
+def score(problem: Problem, fitted: Fitted, causes: Iterable[Cause], linear: Linear) -> list[Scored]:
+    """All causes, best first. Base values (with their priors) and the windows' starts are projected out; linear: the
+    fit's `slopes`.
+    """
     spread = scale(problem, fitted.residual)
-    free = np.ones(len(fitted.z), bool)
-    linear = linearise(problem, fitted, spread, free)
     reduced = reduce(linear, fitted.starts, fitted.z)
     own = linear.starts.transpose(1, 0, 2)
     root = np.sqrt(weigh(fitted.residual, spread)) / spread * problem.windows.use

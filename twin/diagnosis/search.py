@@ -14,7 +14,7 @@ from twin.diagnosis.clipped import GUIDE_END, PASSED
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.coordinates import NO_FRICTION
 from twin.diagnosis.direct import screen
-from twin.diagnosis.fit import Fitted, Linear, carried, fit, linearise, loss, scale
+from twin.diagnosis.fit import Fitted, Linear, carried, fit, loss, scale, slopes
 from twin.diagnosis.precision import covariance
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.score import Scored, score, survey
@@ -25,7 +25,6 @@ SHORT_LIST = 7
 FINALISTS = 4
 MOST = 4
 NEEDED = 0.012
-NEEDED_MORE = 0.012
 NOISE = 1.12
 LARGE = 25.0
 DOUBTFUL = 1.4
@@ -52,10 +51,7 @@ def error(problem: Problem, left: Float, wild: float = WILD) -> Float:
     """Squared short-window error in the sensors' noise, per channel [2]: the mean over the windows that have the
     channel, the wildest tenth capped where it passes `wild`.
     """
-    squares = (left / problem.sigma[:, None, :]) ** 2
-    count = problem.windows.use.sum(axis=1)
-    each = squares.sum(axis=1) / np.maximum(count, 1)
-    has = count > 0
+    each, has = misses(problem, left), problem.windows.use.sum(axis=1) > 0
     mean = np.zeros(2)
     for c in range(2):
         mine = each[has[:, c], c]
@@ -100,18 +96,23 @@ def begin(fitted: Fitted, scored: Scored, which: int = 0) -> tuple[Composition, 
 
 
 def try_causes(
-    problem: Problem, fitted: Fitted, scored: Sequence[Scored], direct: Sequence[Scored], quick: int = 3, long: int = 12
+    problem: Problem,
+    fitted: Fitted,
+    scored: Sequence[Scored],
+    direct: Sequence[Scored],
+    linear: Linear,
+    quick: int = 3,
+    long: int = 12,
 ) -> list[Fitted]:
-    """Refits of the most promising causes, best first; those far behind are only begun."""
+    """Refits of the most promising causes, best first; those far behind are only begun. linear: `fitted`'s slopes."""
     begun: list[Fitted] = []
     settled: set[str] | None = None
     keep = telling(problem, fitted)
     few, part = problem.part(keep), _part(fitted, keep)
-    slopes = linearise(problem, fitted, scale(problem, fitted.residual), np.ones(len(fitted.z), bool))
     for s, plain in _interleaved(scored, direct):
         if settled is not None and s.cause.name not in settled and (plain or s.gain < 0.5 * scored[0].gain):
             continue
-        begun.append(_begin_fit(few, part, s, plain, quick, (slopes, keep)))
+        begun.append(_begin_fit(few, part, s, plain, quick, (linear, keep)))
         if settled is None and error(few, begun[-1].residual).max() < NOISE:
             settled = set(s.cause.rivals)
     begun = [_whole(problem, fitted, f, keep) for f in ranked(few, begun)]
@@ -126,7 +127,7 @@ def try_causes(
 
 def telling(problem: Problem, fitted: Fitted, share: int = 2) -> Index:
     """Half of the windows (or another share): those that the fit misses most, and others evenly."""
-    each = misses(problem, fitted).max(axis=1)
+    each = misses(problem, fitted.residual).max(axis=1)
     count = len(each) // share
     worst = np.argsort(-each)[: count // 2]
     rest = np.setdiff1d(np.arange(len(each)), worst)
@@ -134,9 +135,9 @@ def telling(problem: Problem, fitted: Fitted, share: int = 2) -> Index:
     return np.union1d(worst, chosen)
 
 
-def misses(problem: Problem, fitted: Fitted) -> Float:
+def misses(problem: Problem, left: Float) -> Float:
     """Squared error of every window in the sensors' noise [w, 2]."""
-    squares: Float = ((fitted.residual / problem.sigma[:, None, :]) ** 2).sum(axis=1)
+    squares = ((left / problem.sigma[:, None, :]) ** 2).sum(axis=1)
     each: Float = squares / np.maximum(problem.windows.use.sum(axis=1), 1)
     return each
 
@@ -161,12 +162,12 @@ def _interleaved(scored: Sequence[Scored], direct: Sequence[Scored]) -> list[tup
 
 
 def _begin_fit(
-    problem: Problem, fitted: Fitted, scored: Scored, plain: bool, quick: int, slopes: tuple[Linear, Index]
+    problem: Problem, fitted: Fitted, scored: Scored, plain: bool, quick: int, known: tuple[Linear, Index]
 ) -> Fitted:
     model, z = begin(fitted, scored)
     if not plain:
-        known = carried(slopes[0], fitted.model, model, slopes[1])
-        return fit(problem, model, z, fitted.starts, iterations=quick, known=known)
+        begun = carried(known[0], fitted.model, model, known[1])
+        return fit(problem, model, z, fitted.starts, iterations=quick, known=begun)
     if not fitted.model.causes:
         stated = np.array([c.owner in ("base", "run") for c in model.coordinates])
         z = np.where(stated, 0.0, z)
@@ -205,12 +206,13 @@ def forward(problem: Problem, base: Fitted, causes: Sequence[Cause], progress: C
     for turn in range(MOST):
         taken = {c.name for c in search.current.model.causes}
         progress(f"looking for {'a' if not turn else 'a further'} cause", 0.3 + 0.12 * turn)
-        scored = score(problem, search.current, [c for c in causes if c.name not in taken])
+        left, linear = [c for c in causes if c.name not in taken], slopes(problem, search.current)
+        scored = score(problem, search.current, left, linear)
         if not turn:
             search.scores = scored
         search.last_scores = scored
-        direct = _direct(problem, search.current, [c for c in causes if c.name not in taken])
-        tried = try_causes(problem, search.current, [s for s in scored if s.gain > 15.0], direct)
+        direct = _direct(problem, search.current, left)
+        tried = try_causes(problem, search.current, [s for s in scored if s.gain > 15.0], direct, linear)
         search.refits += tried
         tried = [f for f in tried if sound(problem, search.current, f)]
         if not tried:
@@ -222,7 +224,7 @@ def forward(problem: Problem, base: Fitted, causes: Sequence[Cause], progress: C
 
 def _direct(problem: Problem, fitted: Fitted, causes: Sequence[Cause]) -> list[Scored]:
     """The direct screen where something large is wrong: on the windows that miss most and on others, evenly."""
-    each = misses(problem, fitted).max(axis=1)
+    each = misses(problem, fitted.residual).max(axis=1)
     if error(problem, fitted.residual).max() < DOUBTFUL and np.sum(each > LARGE) < FEW:
         return []
     few = problem.part(telling(problem, fitted, 3))
@@ -234,7 +236,8 @@ def sound(problem: Problem, before: Fitted, after: Fitted) -> bool:
     """Whether the last cause of a fit is needed, its size more than 3 sigma from null, and itself within reason."""
     first = not before.model.causes
     excess = float(error(problem, before.residual).max()) - 1.0
-    if gained(problem, before, after) < (NEEDED if first else max(NEEDED_MORE, 0.2 * excess / (1.0 + excess))):
+    needed = NEEDED if first else max(NEEDED, 0.2 * excess / (1.0 + excess))
+    if gained(problem, before, after) < needed:
         return False
     cause = after.model.causes[-1]
     i = (
@@ -272,7 +275,7 @@ def backward(search: Search) -> None:
         thinner = [without(problem, search.current, c) for c in search.current.model.causes]
         best = ranked(problem, thinner)[0]
         search.refits.append(best)
-        if gained(problem, best, search.current) >= NEEDED_MORE:
+        if gained(problem, best, search.current) >= NEEDED:
             break
         search.current = best
 

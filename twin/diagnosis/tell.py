@@ -45,10 +45,8 @@ def tell(
     """The verdict from what the search found and the confirmation measured."""
     spread, _ = covariance(found.problem, found.final)
     causes = [_cause(found, search, c, spread, r) for c, r in zip(_named(found.final), ranks, strict=True)]
-    for cause in causes:
-        for limit in limits:
-            if cause["name"] == limit.cause:
-                _limited(cause, limit)
+    for limit in limits:
+        _limited(next(c for c in causes if c["name"] == limit.cause), limit)
     causes += [_hum(line) for line in lines]
     data: Json = {
         "baseline": {"runs": [_baseline(r) for r in recordings], "skipped": skipped},
@@ -166,9 +164,9 @@ def _limited(cause: Json, limit: Clip) -> None:
     name, told = next(iter(cause["parameters"].items()))
     told["std"] = limit.std
     cause["strength"] = limit.strength
-    seen = {
-        "end-stop": "times the weight was braked at one place far harder than by its weight and friction",
-    }.get(limit.cause, "flat tops with steep ends stand at one highest level, and were not used")
+    flat = "flat tops with steep ends stand at one highest level, and were not used"
+    braked = "times the weight was braked at one place far harder than by its weight and friction"
+    seen = braked if limit.cause == "end-stop" else flat
     size = f"{name} {told['value']:.4g} +- {told['std']:.2g} {told['units']}"
     cause["evidence"] = [f"{limit.flats} {seen} ({limit.cause}): {size}"]
 

@@ -15,7 +15,7 @@ from twin.diagnosis.search import Search, error, prior_price, without
 ENOUGH = 1.10
 SHARE = 0.10
 ALIKE = 0.8
-PLACES = ("weight_position", "drive_position", "pulley_angle")
+POSITIONS = ("weight_position", "drive_position", "pulley_angle")
 SPEEDS = ("weight_velocity", "drive_velocity")
 
 
@@ -64,7 +64,7 @@ def _best(problem: Problem, fitted: Fitted) -> Unknown | None:
 
 def _aliases(variable: str) -> list[str]:
     """What data can't tell apart, taut: the same motion on both sides of the pulley and at its rim."""
-    for alike in (PLACES, SPEEDS):
+    for alike in (POSITIONS, SPEEDS):
         if variable in alike:
             return [name for name in alike if name != variable]
     return ["time"] if variable == "frequency" else []

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from twin.score.lag import LEAST_R, REACH
+from twin.score.lag import REACH, best_shift
 
 Float = NDArray[np.float64]
 
@@ -57,10 +57,7 @@ class StreamLag:
         with np.errstate(invalid="ignore", divide="ignore"):
             floor = 1e-24 * max(self._aa * float(self._bb.max()), 1e-300)
             curve = np.where(spread > floor, (self._ab - self._a * self._b / n) / np.sqrt(spread), np.nan)
-        if not np.any(curve > LEAST_R):
-            return math.nan
-        at = int(np.nanargmax(curve))
-        return (at - self._most + _vertex(curve, at)) * self._dt
+        return best_shift(curve) * self._dt
 
 
 def _spans(values: Float, length: int) -> Float:
@@ -68,11 +65,3 @@ def _spans(values: Float, length: int) -> Float:
     total = np.concatenate(([0.0], np.cumsum(values)))
     spans: Float = total[length:] - total[:-length]
     return spans
-
-
-def _vertex(curve: Float, at: int) -> float:
-    if not 0 < at < len(curve) - 1:
-        return 0.0
-    before, here, after = curve[at - 1 : at + 2]
-    bend = before - 2.0 * here + after
-    return float(0.5 * (before - after) / bend) if np.isfinite(bend) and bend < 0.0 else 0.0

@@ -21,11 +21,17 @@ def best_lag(measured: Float, simulated: Float, dt: float, reach: float = REACH)
     R at every whole shift over the samples that both share, then the vertex of the parabola through the best three.
     """
     most = min(round(reach / dt), len(measured) // 4)
-    curve = correlation(measured, simulated, most)
+    return best_shift(correlation(measured, simulated, most)) * dt
+
+
+def best_shift(curve: Float) -> float:
+    """Samples from the middle of a curve of R [2 most + 1] to the vertex of the parabola through its best three; NaN
+    where no R reaches 0.2.
+    """
     if not np.any(curve > LEAST_R):
         return math.nan
     at = int(np.nanargmax(curve))
-    return (at - most + _vertex(curve, at)) * dt
+    return at - len(curve) // 2 + _vertex(curve, at)
 
 
 def _vertex(curve: Float, at: int) -> float:
