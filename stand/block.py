@@ -21,6 +21,7 @@ class Block:
     skipped: bytes of junk passed over since the block before.
     request: for a polled instrument, host time just before the question was sent, s.
     tail: bytes of a frame that had begun and was not complete at `arrival`.
+    span: bytes of the stream from its first frame's first byte to `arrival`, which earlier reads may have brought.
     """
 
     instrument: str
@@ -32,6 +33,7 @@ class Block:
     skipped: int = 0
     request: float | None = None
     tail: int = 0
+    span: int = 0
 
     def __len__(self) -> int:
         return len(self.values)

@@ -87,7 +87,8 @@ class Feeder:
         skipped = frames.consumed - spent
         first, self.count, self.junk = self.count, self.count + len(frames.ends), self.junk + skipped
         tail = len(self._rest)
-        return Block(self.instrument, first, frames.values, None, frames.flags, arrival, skipped, tail=tail)
+        span = len(buffer) - int(frames.ends[0]) + self.codec.length if len(frames.ends) else 0
+        return Block(self.instrument, first, frames.values, None, frames.flags, arrival, skipped, tail=tail, span=span)
 
 
 def names() -> tuple[str, ...]:

@@ -73,8 +73,17 @@ def create_layout(file: h5py.File, plan: FilePlan) -> Layout:
     return Layout(streams, counters, data, _events(entry))
 
 
+def mark_start(file: h5py.File) -> None:
+    """Now is when the recording starts."""
+    file["entry/start_time"][()] = _now()
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="milliseconds")
+
+
 def _about(entry: h5py.Group, plan: FilePlan) -> None:
-    entry.create_dataset("start_time", data=datetime.now(UTC).isoformat(timespec="milliseconds"))
+    entry.create_dataset("start_time", data=_now())
     for name, text in plan.about.items():
         entry.create_dataset(name, data=text)
     if plan.configuration:

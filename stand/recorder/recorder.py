@@ -14,7 +14,7 @@ import numpy as np
 from stand.block import Block
 from stand.clock.model import LiveBlock
 from stand.errors import StandError
-from stand.recorder.layout import FilePlan, Layout, create_layout
+from stand.recorder.layout import FilePlan, Layout, create_layout, mark_start
 from stand.recorder.raw import Happening, Taken
 from stand.recording.model import CHANNELS
 from stand.transport.raw import RawBytes, RawRegisters
@@ -73,6 +73,10 @@ class Recorder:
 
     def _record(self, file: h5py.File, layout: Layout) -> None:
         going, channels = True, [c.name for c in CHANNELS[self._plan.setup.system]]
+        if (item := self._queue.get()) is None:
+            return
+        mark_start(file)
+        _add(layout, item, channels)
         while going:
             going = self._collect(layout, channels, self._clock() + self._period)
             layout.store()
@@ -129,8 +133,10 @@ def _add_raw(layout: Layout, item: Taken) -> None:
 
 def _add_block(layout: Layout, block: Block) -> None:
     series = layout.streams[block.instrument]
-    series["values"].add(block.values)
-    series["flags"].add(block.flags)
+    # the recording may have begun in the middle of a frame, of which its raw bytes hold only the end
+    begin = 1 if "raw" in series and block.span > len(series["raw"]) else 0
+    series["values"].add(block.values[begin:])
+    series["flags"].add(block.flags[begin:])
     if "ticks" in series and block.ticks is not None:
         series["ticks"].add(block.ticks)
 

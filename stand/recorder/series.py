@@ -37,6 +37,10 @@ class Series:
         """Keep these rows for the next `store`."""
         self._parts.append(values)
 
+    def __len__(self) -> int:
+        """Rows added so far, stored or not."""
+        return int(self.dataset.shape[0]) + sum(len(part) for part in self._parts)
+
     def store(self) -> None:
         """Append everything added so far to the dataset."""
         if not self._parts:

@@ -63,13 +63,15 @@ def perform(rig: Rig, order: RunOrder, path: Path) -> Finished:
     motion = plan(order.excitation, stand.limits, rest_travel=stand.drive.rest_travel)
     announce(rig, "connect")
     rig.connect()
-    identities = _check(rig)
-    rig.arm()
-    rig.read(preparing_rules(stand))
-    _prepare(rig, order, motion.rest_travel)
-    recorder = Recorder(path, _file_plan(stand, order, identities, motion.duration))
-    with ahead():
-        recorder.start()
+    recorder = _recorder(path, _file_plan(stand, order, _check(rig), motion.duration))
+    try:
+        rig.arm()
+        rig.read(preparing_rules(stand))
+        _prepare(rig, order, motion.rest_travel)
+    except BaseException:
+        recorder.close()
+        path.unlink()  # it holds nothing
+        raise
     span, ending = Span(), Ending()
     try:
         _record(rig, recorder, motion, span, ending)
@@ -80,6 +82,16 @@ def perform(rig: Rig, order: RunOrder, path: Path) -> Finished:
         rig.end_reading()
         recorder.close()
     return close_run(rig, path, span, ending)
+
+
+def _recorder(path: Path, about: FilePlan) -> Recorder:
+    """A recorder that waits for its streams. HDF5 makes a file with the interpreter's lock held, and a busy disk can
+    hold that up for most of a second: before anything is read or watched, nobody misses it.
+    """
+    recorder = Recorder(path, about)
+    with ahead():
+        recorder.start()
+    return recorder
 
 
 @dataclass

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -14,6 +16,7 @@ import pytest
 
 from stand.block import Block
 from stand.clock.model import LiveBlock
+from stand.codecs.codec import Feeder, load_codec
 from stand.errors import StandError
 from stand.excitation.spec import Excitation, Shape
 from stand.recorder import FilePlan, Happening, Recorder, StreamSpec, Taken, Wire
@@ -65,6 +68,25 @@ def test_everything_that_was_put_in_comes_out(tmp_path: Path) -> None:
         assert file["entry/events/text"][0].decode() == "Gewicht berührt"
         assert not file["entry/events"].attrs["complete"]
     assert len(read_recording(tmp_path / "run.h5").time) == 5000
+
+
+def test_what_is_counted_is_what_the_raw_bytes_hold_wherever_the_recording_begins(tmp_path: Path) -> None:
+    codec = load_codec("gsv-8")
+    stream = b"".join(b"\xaa\x10\xb0" + struct.pack(">f", value) + b"\x85" for value in range(40))
+    for begin, size in itertools.product(range(1, 12), (3, 8, 20)):
+        recorder, feeder = Recorder(tmp_path / f"{begin}-{size}.h5", plan()), Feeder(codec, "force_gauge")
+        recorder.start()
+        feeder.feed(stream[:begin], 0.0)  # read before the recording began
+        for at in range(begin, len(stream), size):
+            data = stream[at : at + size]
+            block = feeder.feed(data, float(at))
+            recorder.put(Taken(RawBytes("force_gauge", data, float(at)), block if len(block) else None))
+        recorder.close()
+        with h5py.File(recorder.path) as file:
+            force = file["entry/instruments/force_gauge"]
+            held = codec.scan(force["raw"][()]).values
+            assert force["values"][()].tolist() == held.tolist()
+            assert force["frames_counted"][()] == len(held) == 40 - -(-begin // 8)
 
 
 def test_a_run_longer_than_its_reserve_is_kept_whole(tmp_path: Path) -> None:
