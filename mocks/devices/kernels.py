@@ -49,9 +49,10 @@ def look_up(kept, row, times, start, grid, shift, last, out):  # type: ignore[no
 
 @njit(cache=True)
 def take_ring(  # type: ignore[no-untyped-def]
-    counter, time, x, times, position, rate, epoch, drift, noise, sigma, resolution, unit, cells
+    counter, time, x, times, position, rate, epoch, drift, noise, sigma, resolution, unit, cells, newest
 ):
-    """The ring's samples from `counter` on, one for each noise [n]: into cells; their due times, values, true values.
+    """The ring's samples from `counter` on, one for each noise [n]: their differences into cells; returned are their
+    due times, values, true values and the newest as a number.
 
     time, x: the point before the first of times [m] and positions [m].
     """
@@ -71,9 +72,10 @@ def take_ring(  # type: ignore[no-untyped-def]
         if resolution > 0.0:
             read = np.rint(read / resolution) * resolution
         counts = np.int64(np.rint(read / unit))
-        cells[(counter + i) % cells.size] = counts
+        cells[(counter + i) % cells.size] = min(max(counts - newest, -32768), 32767)
+        newest = counts
         due[i], value[i], true[i] = t, counts * unit, here
-    return due, value, true
+    return due, value, true, newest
 
 
 @njit(cache=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import select
+import struct
 import threading
 import time
 from collections.abc import Callable
@@ -18,6 +19,7 @@ from mocks.wire.terminal import Terminal
 Float = NDArray[np.float64]
 
 RING_RATE = 1000.0
+WORDS = DEPTH + 4
 PPM, SPREAD = 1e-6, 120
 SETTLE = 0.2  # s between the moment that everybody listens and the first byte
 
@@ -59,13 +61,14 @@ class RecordedRing:
     """
 
     def __init__(self, registers: NDArray[np.uint16], request: Float, response: Float, clock: PlayClock) -> None:
-        if registers.ndim != 2 or registers.shape[1] != 2 * (DEPTH + 1) or len(registers) < 2:
+        if registers.ndim != 2 or registers.shape[1] != WORDS or len(registers) < 2:
             raise ValueError(f"registers of shape {registers.shape} are no reads of a ring of {DEPTH}")
         self.clock = clock
         self.word_order, words = _words(registers)
         heads = words[:, 0].astype(np.int64)
         self.first, self.last = int(heads[0]), int(heads[-1])
-        self.values = _unrolled(heads, words[:, 1:].astype(np.int32))
+        self.oldest = self.first - DEPTH - 1
+        self.values = _unrolled(heads, words)
         self.start, self.period = _timing(heads, request, response)
         self.given = self.first
         self.reads = 0
@@ -83,13 +86,11 @@ class RecordedRing:
     def registers(self, now: float) -> list[int]:
         """The 64 registers now."""
         count = self.count(now)
-        cells = np.zeros(DEPTH + 1, np.uint32)
-        cells[0] = count & 0xFFFFFFFF
-        newest = np.arange(count - DEPTH, count)
-        cells[1 + newest % DEPTH] = self.values[newest - (self.first - DEPTH)].view(np.uint32)
-        pair = np.stack([cells >> 16, cells & 0xFFFF], axis=-1)
-        found: list[int] = (pair if self.word_order == "big" else pair[:, ::-1]).ravel().tolist()
-        return found
+        held = self.values[count - DEPTH - 1 - self.oldest : count - self.oldest]
+        cells = np.zeros(DEPTH, np.int16)
+        cells[np.arange(count - DEPTH, count) % DEPTH] = np.clip(np.diff(held), -32768, 32767)
+        told = struct.unpack(f">{WORDS}H", struct.pack(f">Ii{DEPTH}h", count & 0xFFFFFFFF, held[-1], *cells.tolist()))
+        return list(told) if self.word_order == "big" else [told[i ^ 1] for i in range(WORDS)]
 
 
 def _words(registers: NDArray[np.uint16]) -> tuple[str, NDArray[np.uint32]]:
@@ -101,13 +102,20 @@ def _words(registers: NDArray[np.uint16]) -> tuple[str, NDArray[np.uint32]]:
     return order, orders[order].astype(np.uint32)
 
 
-def _unrolled(heads: NDArray[np.int64], cells: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Every sample from the first read's oldest to the last read's newest, int32; zero where a read came too late."""
-    first = int(heads[0]) - DEPTH
-    values = np.zeros(int(heads[-1]) - first, np.int32)
-    for head, row in zip(heads, cells, strict=True):
-        k = np.arange(head - DEPTH, head)
-        values[k - first] = row[k % DEPTH]
+def _unrolled(heads: NDArray[np.int64], words: NDArray[np.uint32]) -> NDArray[np.int64]:
+    """Every sample from the one before the first read's oldest to the last read's newest; zero where a read came too
+    late. ValueError where a read's newest sample is not the sum of what leads to it: that is another kind of ring.
+    """
+    first = int(heads[0]) - DEPTH - 1
+    values, before = np.zeros(int(heads[-1]) - first, np.int64), None
+    newest = words[:, 1].astype(np.uint32).view(np.int32)
+    cells = words[:, 2:].astype(">u4").view(">i2").astype(np.int64)
+    for head, last, row in zip(heads, newest, cells, strict=True):
+        steps = row[np.arange(head - DEPTH, head) % DEPTH]
+        held = int(last) - np.concatenate(([steps.sum()], steps.sum() - np.cumsum(steps)))
+        if before is not None and head - before <= DEPTH and held[before - 1 - head] != values[before - 1 - first]:
+            raise ValueError(f"the reads of samples {before - 1} and {head - 1} don't agree: no ring of differences")
+        values[head - DEPTH - 1 - first : head - first], before = held, head
     return values
 
 

@@ -14,14 +14,15 @@ from mocks.devices.kernels import take_ring
 
 Float = NDArray[np.float64]
 
-DEPTH = 31
+DEPTH = 60
 RATE = 1000.0
 UNIT = 1e-7  # m
 Sampled = Callable[[NDArray[np.int64], Float, Float, Float], None]
 
 
 class Ring:
-    """Sample k, taken at drive time k ms, stands in cell k mod 31 as i32 of 0.1 um; sub 1 counts the samples.
+    """Sample k is taken at drive time k ms. Sub 1 counts the samples, sub 2 holds the newest, i32 of 0.1 um; two to a
+    sub there follow 60 cells: cell k mod 60 holds sample k less sample k - 1, an i16 that saturates.
 
     encoder: (resolution, noise) m. sampled: told of every batch (counter, true time, value, true value).
     """
@@ -32,7 +33,7 @@ class Ring:
         self.clock, self.rng, self.sampled = clock, rng, sampled
         self.resolution, self.noise = encoder
         self.count = 0
-        self.cells = np.zeros(DEPTH, np.int32)
+        self.cells, self.newest = np.zeros(DEPTH, np.int16), 0
         self._before = (np.inf, 0.0)
 
     def measure(self, position: Float) -> Float:
@@ -45,17 +46,18 @@ class Ring:
         last = math.floor(self.clock.device(float(times[-1])) * RATE)
         if last >= self.count:
             noise = self.rng.standard_normal(last + 1 - self.count)
-            due, value, true = take_ring(
+            due, value, true, self.newest = take_ring(
                 self.count, *self._before, times, position, RATE, self.clock.epoch, self.clock.drift, noise, self.noise,
-                self.resolution, UNIT, self.cells,
+                self.resolution, UNIT, self.cells, self.newest,
             )  # fmt: skip
             self.sampled(np.arange(self.count, last + 1), due, value, true)
             self.count = last + 1
         self._before = float(times[-1]), float(position[-1])
 
     def registers(self, word_order: str) -> list[int]:
-        """The 64 registers at 2000: number of samples so far, then the cells."""
-        words = struct.unpack(">64H", struct.pack(">I31i", self.count & 0xFFFFFFFF, *self.cells.tolist()))
+        """The 64 registers at 2000: number of samples so far, the newest, then the cells."""
+        text = struct.pack(">Ii60h", self.count & 0xFFFFFFFF, self.newest, *self.cells.tolist())
+        words = struct.unpack(">64H", text)
         if word_order == "big":
             return list(words)
         return [words[i ^ 1] for i in range(64)]

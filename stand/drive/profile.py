@@ -136,11 +136,15 @@ class MotionTable(_Part):
 
 
 class Trace(_Part):
-    """A counted ring of position samples in registers."""
+    """A counted ring of position samples in registers.
+
+    newest: register of the newest sample as i32; where it is given, slot k mod depth holds sample k less sample k - 1.
+    """
 
     kind: Literal["none", "ring"] = "none"
     head: int = 0
     head_type: Literal["u16", "u32"] = "u32"
+    newest: int | None = None
     base: int = 0
     depth: int = 0
     record: Literal["i16", "i32"] = "i32"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from typing import Any
 
 import numpy as np
@@ -211,20 +212,16 @@ def test_homing_here_makes_this_place_the_home_offset() -> None:
     assert int.from_bytes(bench.drive.access(0x6064, 0, None, 4), "little") == 12_000
 
 
-def ring_of(registers: list[int]) -> tuple[int, np.ndarray]:
-    words = np.array(registers).reshape(-1, 2)
-    return int(words[0, 0] << 16 | words[0, 1]), (words[1:, 0] << 16 | words[1:, 1]).astype(np.int32)
-
-
-def test_the_ring_holds_the_last_31_counted_milliseconds() -> None:
+def test_the_ring_holds_the_last_60_counted_milliseconds() -> None:
     bench = Bench()
     bench.enable(3)
     bench.write(0x60FF, 100_000)
     travel = bench.run(0.2)
-    count, cells = ring_of(bench.drive.read_block(RING) or [])
+    count, newest, *cells = struct.unpack(">Ii60h", struct.pack(">64H", *(bench.drive.read_block(RING) or [])))
     assert count == 201
-    newest = np.arange(count - 31, count)
-    assert cells[newest % 31] * 1e-7 == pytest.approx(travel[newest - 1], abs=1e-7)
+    held = np.arange(count - 60, count)
+    steps = np.array(cells)[held % 60]
+    assert (newest - (steps.sum() - np.cumsum(steps))) * 1e-7 == pytest.approx(travel[held - 1], abs=1e-7)
 
 
 @pytest.mark.parametrize("drift", [-50e-6, 0.0, 50e-6])

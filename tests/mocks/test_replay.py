@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 import time
 from pathlib import Path
 from typing import Any
@@ -20,13 +21,14 @@ SECONDS, SAMPLE_0 = 1.5, 1234.5
 
 def ring_registers(heads: np.ndarray, values: np.ndarray, order: str) -> np.ndarray:
     """Reads [polls, 64] of a ring that holds values[k] as sample k."""
-    words = np.zeros((len(heads), DEPTH + 1), np.uint32)
-    words[:, 0] = heads
-    for row, head in zip(words, heads, strict=True):
-        k = np.arange(head - DEPTH, head)
-        row[1 + k % DEPTH] = values[k].view(np.uint32)
-    pairs = np.stack([words >> 16, words & 0xFFFF], axis=-1)
-    return (pairs if order == "big" else pairs[..., ::-1]).reshape(len(heads), -1).astype(np.uint16)
+    reads = []
+    for head in heads.tolist():
+        cells = [0] * DEPTH
+        for k in range(head - DEPTH, head):
+            cells[k % DEPTH] = int(values[k] - values[k - 1])
+        reads.append(np.frombuffer(struct.pack(f">Ii{DEPTH}h", head, values[head - 1], *cells), ">u2"))
+    pairs = np.array(reads, np.uint16).reshape(len(heads), -1, 2)
+    return (pairs if order == "big" else pairs[..., ::-1]).reshape(len(heads), -1)
 
 
 def recorded_ring(order: str = "big") -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -59,12 +61,11 @@ def recording(tmp_path: Path) -> Path:
 
 def ring_samples(found: dict[int, int], registers: list[int]) -> int:
     """Adds the samples of one read; returns its count."""
-    words = np.array(registers).reshape(-1, 2)
-    words = (words[:, 0] << 16 | words[:, 1]).astype(np.uint32)
-    count = int(words[0])
-    cells = words[1:].view(np.int32)
-    found |= {k: int(cells[k % DEPTH]) for k in range(count - DEPTH, count)}
-    return count
+    count, value, *cells = struct.unpack(f">Ii{DEPTH}h", struct.pack(">64H", *registers))
+    for k in range(count - 1, count - DEPTH - 1, -1):
+        found[k] = value
+        value -= cells[k % DEPTH]
+    return int(count)
 
 
 @pytest.mark.parametrize("speed", ["1", "max"])

@@ -135,9 +135,13 @@ def test_a_bad_profile_is_refused_with_its_key() -> None:
 
 
 def _poll(head: int, samples: dict[int, int], order: str = "big") -> RawRegisters:
-    slots = [samples.get(k, 0) for k in range(31)]
-    words = [w for value in (head, *slots) for w in modbus.words(value & 0xFFFFFFFF, 32, order)]
-    return RawRegisters("drive", np.array(words, np.uint16), 1.0, 1.001)
+    """A read of the ring after `head` samples; samples: by number, 0 where it is none of them."""
+    cells = [0] * 60
+    for k in range(head - 60, head):
+        cells[k % 60] = max(-32768, min(32767, samples.get(k, 0) - samples.get(k - 1, 0)))
+    text = struct.pack(">Ii60h", head % 2**32, samples.get(head - 1, 0), *cells)
+    words = np.frombuffer(text, ">u2").astype(np.uint16).reshape(-1, 2)
+    return RawRegisters("drive", (words if order == "big" else words[:, ::-1]).reshape(-1), 1.0, 1.001)
 
 
 @pytest.mark.parametrize("order", ["big", "little"])
@@ -145,20 +149,47 @@ def test_the_ring_gives_each_counted_sample_once_and_survives_the_counters_wrap(
     decoder = RingDecoder(load_profile("nanotec-cia402"))
     decoder.swap = order == "little"
     top = 2**32
-    decoder.decode(_poll(top - 2, {}, order))
-    block = decoder.decode(_poll(1, {(top - 2) % 31: 300_000, (top - 1) % 31: -1, top % 31: 7}, order))
+    samples = {top - 3: 310_000, top - 2: 300_000, top - 1: 299_999, top: 300_007}
+    decoder.decode(_poll(top - 2, samples, order))
+    block = decoder.decode(_poll(top + 1, samples, order))
     assert block is not None
     assert block.ticks is not None
     assert block.ticks.tolist() == [top - 2, top - 1, top]
-    assert block.values.tolist() == pytest.approx([0.03, -1e-7, 7e-7])
+    assert block.values.tolist() == pytest.approx([0.03, 0.0299999, 0.0300007])
     assert block.request == 1.0
-    assert decoder.decode(_poll(1, {}, order)) is None
+    assert decoder.decode(_poll(top + 1, samples, order)) is None
+
+
+def test_a_jump_of_the_drives_zero_spoils_no_sample_after_it() -> None:
+    decoder = RingDecoder(load_profile("nanotec-cia402"))
+    samples = {k: 900_000 + k for k in range(200)} | {k: k for k in range(200, 260)}
+    decoder.decode(_poll(190, samples))
+    for head in (205, 230, 255):
+        block = decoder.decode(_poll(head, samples))
+        assert block is not None
+        assert block.ticks is not None
+        after = block.ticks >= 200
+        assert block.values[after] == pytest.approx(block.ticks[after] * 1e-7)
+
+
+def test_a_ring_whose_slots_hold_positions_is_read_as_such() -> None:
+    profile = load_profile("nanotec-cia402")
+    plain = profile.trace.model_copy(update={"newest": None, "base": 2002, "depth": 31, "record": "i32"})
+    decoder = RingDecoder(profile.model_copy(update={"trace": plain}))
+    cells = [0] * 31
+    for k in range(70, 100):
+        cells[k % 31] = 300_000 - k
+    words = np.frombuffer(struct.pack(">I31i", 100, *cells), ">u2").astype(np.uint16)
+    decoder.head = 70
+    block = decoder.decode(RawRegisters("drive", words, 1.0, 1.001))
+    assert block is not None
+    assert block.values == pytest.approx((300_000 - np.arange(70, 100)) * 1e-7)
 
 
 def test_samples_that_the_ring_overwrote_are_counted() -> None:
     decoder = RingDecoder(load_profile("nanotec-cia402"))
     decoder.decode(_poll(100, {}))
-    block = decoder.decode(_poll(150, {}))
+    block = decoder.decode(_poll(179, {}))
     assert block is not None
-    assert len(block) == 31
+    assert len(block) == 60
     assert decoder.overrun == 19

@@ -174,9 +174,8 @@ def _polls(rng: np.random.Generator, epoch: float, period: float, count: int) ->
 
 
 def _poll(head: int, samples: NDArray[np.int64]) -> list[int]:
-    slots = np.zeros(31, np.int64)
-    recent = np.arange(max(0, head - 31), head)
-    slots[recent % 31] = samples[recent]
-    words = np.concatenate(([head], slots)) & 0xFFFFFFFF
-    out: list[int] = np.stack((words >> 16, words & 0xFFFF), axis=1).ravel().tolist()
-    return out
+    cells = np.zeros(60, np.int64)
+    recent = np.arange(max(1, head - 60), head)
+    cells[recent % 60] = samples[recent] - samples[recent - 1]
+    newest = int(samples[head - 1]) if head else 0
+    return list(struct.unpack(">64H", struct.pack(">Ii60h", head, newest, *cells.tolist())))
