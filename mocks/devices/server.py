@@ -124,6 +124,7 @@ class LockedRegisters:
             return found
 
     def _now(self) -> None:
+        self.advance(time.monotonic())  # what the plant is behind: then the drive's look at itself is soon answered
         now = time.monotonic()
         if self.looks is not None:
             self.looks.append(now)
