@@ -20,6 +20,8 @@ from stand.recording.model import CHANNELS
 from stand.transport.raw import RawBytes, RawRegisters
 
 FLUSH = 0.2
+#: s between looks into the queue: woken by every block, a thread would cost what it writes many times over
+PAUSE = 0.02
 
 
 Item = Taken | Happening | LiveBlock
@@ -87,9 +89,10 @@ class Recorder:
         """Take items until `until`; False once the end was taken."""
         while (left := until - self._clock()) > 0:
             try:
-                item = self._queue.get(timeout=left)
+                item = self._queue.get_nowait()
             except queue.Empty:
-                return True
+                time.sleep(min(left, PAUSE))
+                continue
             if item is None:
                 return False
             _add(layout, item, channels)

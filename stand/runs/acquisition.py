@@ -24,6 +24,8 @@ from stand.transport.raw import Raw
 from stand.transport.readers import GaugeReader, RingReader
 
 GAUGES = ("force_gauge", "dial_gauge")
+#: s that the live thread lets blocks gather: woken by each, it would hold up the readers
+GATHER = 0.004
 
 
 class Reader(Protocol):
@@ -129,3 +131,5 @@ class Acquisition:
             if now - told >= 1.0:
                 told = now
                 self._publish(Health(now, {name: meter.read(now) for name, meter in self.meters.items()}))
+            if self._live.empty():
+                time.sleep(GATHER)
