@@ -36,6 +36,7 @@ def _strands(q, c, before, bp, taut1, taut2):  # type: ignore[no-untyped-def]
     q[k.E2] = 0.0
     q[k.R] = 0.0
     q[k.PULL] = 0.0
+    q[k.SHARED] = 0.0
     q[k.GAMMA1] = 1.0
     q[k.D1] = q[k.S] - q[k.U] + c[k.K_REST] / c[k.K_C1] + c[k.K_OFFSET]
     q[k.DD1] = q[k.W] - q[k.V]
@@ -86,8 +87,12 @@ def _derivative(q, c, dy):  # type: ignore[no-untyped-def]
     dy[0] = q[k.V]
     dy[2] = q[k.W]
     if c[k.K_SYSTEM] == k.WFPD:
-        dy[1] = (q[k.T1] - q[k.WEIGHT] - q[k.G]) / q[k.MASS]
-        dy[3] = (q[k.T2] - q[k.T1] * q[k.GAMMA1] - q[k.R] + q[k.PULL]) / q[k.RIM]
+        weight = q[k.T1] - q[k.WEIGHT] - q[k.G]
+        rim = q[k.T2] - q[k.T1] * q[k.GAMMA1] - q[k.R] + q[k.PULL]
+        shared = q[k.SHARED]
+        whole = q[k.MASS] * q[k.RIM] - shared * shared
+        dy[1] = (q[k.RIM] * weight - shared * rim) / whole
+        dy[3] = (q[k.MASS] * rim - shared * weight) / whole
     elif c[k.K_SYSTEM] == k.WF:
         dy[1] = (q[k.T1] - q[k.WEIGHT] - q[k.G]) / q[k.MASS]
         dy[2] = 0.0
@@ -201,6 +206,7 @@ def advance(y, q, c, row, start, dt, before, bp, after, ap, work, out, mode):  #
     numbers overflow.
     """
     base = max(1, int(math.ceil(dt / STEP)))
+    q[k.XDD] = (row[3] - row[1]) / dt
     done = 0.0
     for _ in range(4000):
         if done >= 1.0 - 1e-9:

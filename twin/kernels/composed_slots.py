@@ -38,10 +38,12 @@ PULL: Final = 27  # further force on the rim along +s, N, from an eccentric stra
 FRICTION: Final = 28  # Coulomb force F_c, N
 GAMMA1: Final = 29  # factor by which the weight strand's tension works on the rim
 STIFF: Final = 30  # fastest decay that a hook brings, 1/s: the step is shortened to it
+XDD: Final = 31  # the drive end's acceleration, m/s^2, over the sample interval
 AUX: Final = 32  # the causes' own states
 RATE: Final = 40  # their rates
 STATES: Final = 8
-SIZE: Final = 48
+SHARED: Final = 48  # mass that couples the accelerations of weight and rim, kg
+SIZE: Final = 49
 
 # columns of a run's constants
 (K_MASS, K_WEIGHT, K_C1, K_C2, K_B1, K_B2, K_RIM, K_FC, K_VS, K_REST, K_RADIUS, K_OFFSET, K_SYSTEM, K_OWN) = range(14)
