@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-import threading
 import time
 
 import numpy as np
@@ -18,6 +17,7 @@ from stand.transport.link import Clock, ModbusLink
 from stand.transport.priority import raise_priority
 from stand.transport.raw import RawRegisters
 from stand.transport.readers import OnError, Sink
+from stand.transport.worker import Worker
 
 
 class PollReader:
@@ -37,8 +37,7 @@ class PollReader:
         self._before: tuple[float, float, float] | None = None
         self._base = 0
         self._period, self._random = 1.0 / stand.drive.poll_rate, random.Random(seed)
-        self._thread: threading.Thread | None = None
-        self._stopping = threading.Event()
+        self._worker = Worker("polls")
 
     def open(self) -> None:
         """Connect."""
@@ -80,25 +79,20 @@ class PollReader:
 
     def start(self, sink: Sink, on_error: OnError) -> None:
         """Poll from now on, in a thread."""
-        self._stopping.clear()
         self._before = None
-        self._thread = threading.Thread(target=self._run, args=(sink, on_error), name="polls", daemon=True)
-        self._thread.start()
+        self._worker.start(self._run, sink, on_error)
 
     def stop(self) -> None:
         """End the thread; harmless twice."""
-        self._stopping.set()
-        if self._thread is not None and self._thread is not threading.current_thread():
-            self._thread.join(2.0)
-        self._thread = None
+        self._worker.stop()
 
     def _run(self, sink: Sink, on_error: OnError) -> None:
         raise_priority()
         try:
-            while not self._stopping.is_set():
+            while not self._worker.stopping.is_set():
                 raw = self.poll()
                 sink(raw, self.samples(raw))
-                self._stopping.wait(self._period * self._random.uniform(0.8, 1.1))
+                self._worker.stopping.wait(self._period * self._random.uniform(0.8, 1.1))
         except StandError as error:
-            if not self._stopping.is_set():
+            if not self._worker.stopping.is_set():
                 on_error(self.instrument, error)

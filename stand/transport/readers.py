@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import random
 import select
-import threading
 import time
 from collections.abc import Callable
 
@@ -23,6 +22,7 @@ from stand.transport.link import Clock, ModbusLink
 from stand.transport.priority import raise_priority
 from stand.transport.raw import Raw, RawBytes, RawRegisters
 from stand.transport.ring import RingDecoder
+from stand.transport.worker import Worker
 
 Sink = Callable[[Raw, Block | None], None]
 OnError = Callable[[str, StandError], None]
@@ -41,8 +41,7 @@ class GaugeReader:
         self.feeder = Feeder(self.codec, instrument)
         self._clock = clock
         self._port: serial.Serial | None = None
-        self._thread: threading.Thread | None = None
-        self._stopping = threading.Event()
+        self._worker = Worker(instrument)
 
     def open(self) -> None:
         """Open the port; DeviceError where there is none."""
@@ -90,7 +89,7 @@ class GaugeReader:
                 raise DeviceError(
                     "no answer", where=self.instrument, value=command.hex(), remedy="Check baud and cable"
                 )
-            if self._thread is None:
+            if not self._worker.at_work:
                 self.feeder.feed(self._read(port, 0.05), self._clock())
             else:
                 time.sleep(0.002)
@@ -104,18 +103,11 @@ class GaugeReader:
         port = self._opened()
         port.reset_input_buffer()
         self.feeder = Feeder(self.codec, self.instrument)
-        self._stopping.clear()
-        self._thread = threading.Thread(
-            target=self._run, args=(port, sink, on_error), name=self.instrument, daemon=True
-        )
-        self._thread.start()
+        self._worker.start(self._run, port, sink, on_error)
 
     def stop(self) -> None:
         """End the thread; harmless twice."""
-        self._stopping.set()
-        if self._thread is not None and self._thread is not threading.current_thread():
-            self._thread.join(2.0)
-        self._thread = None
+        self._worker.stop()
 
     def _opened(self) -> serial.Serial:
         if self._port is None:
@@ -133,7 +125,7 @@ class GaugeReader:
         raise_priority()
         descriptor = port.fileno()
         try:
-            while not self._stopping.is_set():
+            while not self._worker.stopping.is_set():
                 if not select.select([descriptor], [], [], 0.1)[0]:
                     continue
                 data = os.read(descriptor, 65536)
@@ -146,7 +138,7 @@ class GaugeReader:
         except StandError as error:
             on_error(self.instrument, error)
         except (OSError, serial.SerialException, ValueError, TypeError) as error:
-            if not self._stopping.is_set():
+            if not self._worker.stopping.is_set():
                 lost = DeviceError(f"link lost ({error})", where=self.instrument, remedy="Check the cable")
                 on_error(self.instrument, lost)
 
@@ -168,8 +160,7 @@ class RingReader:
         self._link, self._clock = ModbusLink(stand.drive.link, clock), clock
         self._period = 1.0 / stand.drive.poll_rate
         self._aim = Aim(self._period, 1.0 / self.profile.trace.clock_hz, DITHER, seed)
-        self._thread: threading.Thread | None = None
-        self._stopping = threading.Event()
+        self._worker = Worker("ring")
         trace = self.profile.trace
         self._request = modbus.read_registers(trace.head, self.decoder.count)
 
@@ -200,22 +191,17 @@ class RingReader:
     def start(self, sink: Sink, on_error: OnError) -> None:
         """Poll from now on, in a thread."""
         self.decoder.head = None
-        self._stopping.clear()
-        self._thread = threading.Thread(target=self._run, args=(sink, on_error), name="ring", daemon=True)
-        self._thread.start()
+        self._worker.start(self._run, sink, on_error)
 
     def stop(self) -> None:
         """End the thread; harmless twice."""
-        self._stopping.set()
-        if self._thread is not None and self._thread is not threading.current_thread():
-            self._thread.join(2.0)
-        self._thread = None
+        self._worker.stop()
 
     def _run(self, sink: Sink, on_error: OnError) -> None:
         raise_priority()
         due = self._clock()
         try:
-            while not self._stopping.is_set():
+            while not self._worker.stopping.is_set():
                 raw = self.poll()
                 sink(raw, self.decoder.decode(raw))
                 self._aim.polled(self.decoder.head or 0, raw.request, raw.response)
@@ -224,5 +210,5 @@ class RingReader:
                 if wait > 0:
                     time.sleep(wait)
         except StandError as error:
-            if not self._stopping.is_set():
+            if not self._worker.stopping.is_set():
                 on_error(self.instrument, error)

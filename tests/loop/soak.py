@@ -186,7 +186,20 @@ def main() -> int:
         path = folder / "runs" / f"{view['run']}.h5"
         while not path.exists() or not _complete(path):
             time.sleep(0.5)
+        print(_longest(path))
         return _judge(view, server, lost_samples(path, simulated.ledger))
+
+
+def _longest(path: Path) -> str:
+    """The longest time between two polls of the drive's ring, and what of it was the first one's answer."""
+    with h5py.File(path, "r") as file:
+        drive, origin = file["entry/instruments/drive"], float(file["entry/data"].attrs["host_origin"])
+        asked, answered = drive["request_time"][()], drive["response_time"][()]
+    k = int(np.argmax(np.diff(asked)))
+    apart, took = asked[k + 1] - asked[k], answered[k] - asked[k]
+    return (
+        f"drive: polls at most {apart * 1e3:.0f} ms apart, {asked[k] - origin:.1f} s in; {took * 1e3:.0f} ms its answer"
+    )
 
 
 def _complete(path: Path) -> bool:

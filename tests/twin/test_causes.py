@@ -1,5 +1,7 @@
 """Every cause in the folder: physics with a source, units that are units, and no effect at null."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -60,18 +62,20 @@ CATALOGUE = [
 CAUSES = [variant for cause in every(twin.causes, Cause) for variant in cause.variants or (cause,)]
 
 
-def simulated(model: Composition, z: np.ndarray) -> np.ndarray:
-    """A quarter of a second of a 2 Hz motion, true signals."""
-    dt, n = 5e-4, 520
+def simulated(
+    model: Composition, z: np.ndarray, *, stroke: float = 0.02, u: float = 0.0, count: int = 500
+) -> np.ndarray:
+    """A quarter of a second of a 2 Hz motion (or another count of samples) from u, true signals."""
+    dt, n = 5e-4, count + 20
     time = np.arange(n) * dt
-    x = 0.01 * (1 - np.cos(4 * np.pi * time))
+    x = 0.5 * stroke * (1 - np.cos(4 * np.pi * time))
     drive = np.column_stack([x, np.gradient(x, dt)])
     constants = model.constants(z, [model.setups[0].rest_tension])
     before, after = model.hooks(z, "before"), model.hooks(z, "after")
-    out, status = np.empty((1, 500, 5)), np.zeros(1, np.int64)
+    out, status = np.empty((1, count, 5)), np.zeros(1, np.int64)
     one = np.zeros(1, np.int64)
     composed.windows(
-        np.zeros((1, 4)), np.zeros((1, 8)), constants, one, one + 2, 500, drive, dt,
+        np.array([[u, 0.0, 0.0, 0.0]]), np.zeros((1, 8)), constants, one, one + 2, count, drive, dt,
         before.address, before.p, after.address, after.p, one, out, status,
     )  # fmt: skip
     assert status[0] == 0
@@ -106,3 +110,34 @@ def test_a_stiffer_fibre_is_stiffer_by_its_parameter() -> None:
     z = model.put(model.zero(), cause, {"difference": 1000.0})
     assert model.setup(z, 0).fibre_stiffness == pytest.approx(35e3)
     assert System.WFPD in cause.systems
+
+
+def chain_frequency(setup: Setup, mass: float, pieces: int = 80) -> float:
+    """Hz: of weight and rim on strands whose mass sits in many small lumps, the drive at rest, its lowest."""
+    line = mass / setup.fibre_length
+    arc = setup.fibre_length - setup.weight_strand_length - setup.drive_strand_length
+    n = 2 * pieces
+    m, k = np.zeros(n + 1), np.zeros((n + 1, n + 1))
+    m[0], m[pieces] = setup.mass, setup.pulley_inertia / setup.pulley_radius**2 + line * arc
+    whole = setup.fibre_stiffness * setup.free_length
+    for i in range(n):
+        length = (setup.weight_strand_length if i < pieces else setup.drive_strand_length) / pieces
+        m[[i, i + 1]] += 0.5 * line * length
+        k[i : i + 2, i : i + 2] += whole / length * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    scaled = k[:n, :n] / np.sqrt(np.outer(m[:n], m[:n]))
+    return float(np.sqrt(np.linalg.eigvalsh(scaled)[0]) / (2 * np.pi))
+
+
+@pytest.mark.parametrize("mass", [0.1, 0.6])
+def test_a_heavy_fibre_swings_as_one_in_many_small_lumps(mass: float) -> None:
+    setup = replace(Setup(), guide_friction=0.0, fibre_damping=0.0)
+    model = Composition((setup,), (load(twin.causes, "fibre-mass", Cause),))
+    out = simulated(
+        model, model.put(model.zero(), model.causes[0], {"mass": mass}), stroke=0.0, u=-1e-4, count=4000
+    )  # taut throughout: at rest it is 0.45 mm long
+    u = out[0, :, 0]
+    up = np.flatnonzero((u[:-1] < 0.0) & (u[1:] >= 0.0))
+    crossings = (up - u[up] / (u[up + 1] - u[up])) * 5e-4
+    measured = (len(crossings) - 1) / (crossings[-1] - crossings[0])
+    assert measured == pytest.approx(chain_frequency(setup, mass), rel=1e-3)
+    assert measured < chain_frequency(setup, 1e-6) * (1.0 - 0.03 * mass)

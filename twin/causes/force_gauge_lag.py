@@ -2,28 +2,14 @@
 
 from __future__ import annotations
 
-import math
-
+from twin.causes._delay import lag_line
 from twin.causes._kind import Cause, Undo, Values, sensor
 from twin.parameter import Parameter, Source
 
 
 @sensor
 def _lag(position, force, simulated, about, p):  # type: ignore[no-untyped-def]
-    tau = p[1] / about[1]
-    if tau < 1e-6:
-        return
-    decay = math.exp(-1.0 / tau)
-    gone = tau * (1.0 - decay)
-    slope = 0.25 * (force[4] - force[0])
-    old = force[0]
-    held = old - tau * slope
-    force[0] = held
-    for i in range(1, int(about[0])):
-        new = force[i]
-        held = held * decay + old * (gone - decay) + new * (1.0 - gone)
-        old = new
-        force[i] = held
+    lag_line(force, int(about[0]), p[1] / about[1])
 
 
 def _undo(values: Values) -> Undo:
