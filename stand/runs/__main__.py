@@ -14,7 +14,7 @@ from stand.runs.halt import obey
 from stand.runs.link import Tap
 from stand.runs.messages import Failed, Finished
 from stand.runs.order import Order, RunOrder, StepOrder
-from stand.runs.priority import ahead, prefer
+from stand.runs.priority import ahead, keep_at_hand, prefer
 from stand.runs.replay import perform_replay
 from stand.runs.rig import Rig
 from stand.runs.run import ordered_stand, perform, run_path
@@ -30,6 +30,7 @@ def main() -> int:
     connection = Connection(int(sys.argv[1]))
     stand, order = connection.recv()
     prefer()
+    keep_at_hand()
     with ahead():
         tap = Tap(connection)
     last = _carry_out(stand, order, connection, tap)
