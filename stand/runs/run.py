@@ -78,8 +78,8 @@ def perform(rig: Rig, order: RunOrder, path: Path) -> Finished:
     finally:
         announce(rig, "stop")
         rig.come_to_rest()
+        rig.end_reading()  # the last live samples go out before the long work begins
         announce(rig, "align")
-        rig.end_reading()
         recorder.close()
     return close_run(rig, path, span, ending)
 
