@@ -203,7 +203,10 @@ class Operator:
     def _afterwards(self, last: Experiment, beside: Beside, campaign: Sequence[Path]) -> None:
         closed = self.runs.path(last.run) if last.run is not None and last.state is not State.FAILED else None
         if closed is not None:
-            store(closed, beside)
+            try:
+                store(closed, beside)
+            except Exception as error:  # the run itself is complete: it gets its comparison all the same
+                self._changed(last.now(note=f"what the twin said is not in the recording: {error}"))
         self.hub.publish_state("runs", {"newest": last.run})
         if closed is not None:
             self.jobs.submit("compare", [closed])

@@ -79,7 +79,7 @@ class Beside:
 
 
 def store(path: Path, beside: Beside | None) -> None:
-    """Keep what the twin used and said in the recording, `/entry/live`."""
+    """Keep what the twin used and said in the recording, `/entry/live`; OSError where the file can't be written."""
     from twin.live import store_live
 
     twin = beside.finish() if beside is not None else None
@@ -90,7 +90,7 @@ def store(path: Path, beside: Beside | None) -> None:
         try:
             store_live(path, twin)
             return
-        except BlockingIOError:  # somebody reads the file just now, and HDF5 locks it
+        except OSError:  # somebody reads the file just now, another process (HDF5 locks it) or a thread of this one
             if time.monotonic() > end:
                 raise
             time.sleep(0.1)
