@@ -18,12 +18,12 @@ def test_a_twins_notes_are_kept_though_a_screen_reads_the_fresh_run_just_then(tm
     with h5py.File(path, "w") as file:
         file.create_group("entry")
     beside = Beside(lambda: make_twin("force", Setup()))
-    time = np.arange(400) / 2000.0
-    still = np.zeros(400)
-    beside.push(LiveBlock(0, time, still, still, still + 15.2, np.zeros(400, np.uint8), 0.2))
+    time = np.arange(2000) / 2000.0
+    still = np.zeros(2000)
+    beside.push(LiveBlock(0, time, still, still, still + 15.2, np.zeros(2000, np.uint8), 1.0))
     reader = h5py.File(path, "r")
     threading.Timer(0.4, reader.close).start()
     store(path, beside)
     with h5py.File(path) as file:
         assert file["entry/live"].attrs["model"] == "force"
-        assert len(next(iter(file["entry/live"].values()))) == 400
+        assert len(next(iter(file["entry/live"].values()))) == 2000
