@@ -43,6 +43,13 @@ def first_above(ledger: Path, instrument: str, limit: float, moment: float, wait
         time.sleep(0.1)
 
 
+def await_sample(ledger: Path, tick: int, wait: float = 3.0) -> None:
+    """Until the drive's sample of that number is written, and with it what the gauges had sent by then."""
+    deadline = time.monotonic() + wait
+    while read_samples(ledger, "drive")["counter"][-1] < tick and time.monotonic() < deadline:
+        time.sleep(0.05)
+
+
 def gauge_values(ledger: Path, instrument: str) -> NDArray[np.float64]:
     """Every value that a gauge handed over, in its order."""
     samples = read_samples(ledger, instrument)

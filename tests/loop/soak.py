@@ -26,7 +26,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from api.priority import first
-from tests.loop.ledger import gauge_values, ring_values
+from tests.loop.ledger import await_sample, gauge_values, ring_values
 from tests.loop.simulated import Simulated, simulated_stand
 
 POLLS = 50.0
@@ -142,6 +142,7 @@ def lost_samples(path: Path, ledger: Path) -> dict[str, tuple[int, int]]:
     """instrument -> (samples that the stand sent between the first and the last recorded one, those missing here)."""
     found = {}
     with h5py.File(path, "r") as file:
+        await_sample(ledger, int(file["entry/instruments/drive/ticks"][-1]))
         for name in ("force_gauge", "dial_gauge"):
             recorded = file[f"entry/instruments/{name}/values"][()]
             found[name] = _missing(recorded, gauge_values(ledger, name))

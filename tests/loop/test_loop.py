@@ -58,7 +58,6 @@ def test_a_run_is_recorded_without_a_gap_and_told_live(
     assert recording.F[:800].mean() == pytest.approx(15.2, abs=3.5)
     live = [event for event in events if isinstance(event, LiveBlock)]
     assert sum(len(block.time) for block in live) > 0.97 * len(recording.time)
-    simulated.control("time")
     assert {name: lost for name, (_, lost) in lost_samples(last.path, simulated.ledger).items()} == {
         "force_gauge": 0,
         "dial_gauge": 0,

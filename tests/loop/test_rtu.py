@@ -54,7 +54,6 @@ def test_a_run_on_the_serial_bus_homes_moves_and_is_recorded(
     there = recording.quality == 0
     assert np.mean(there) > 0.9
     assert np.ptp(recording.x[there]) == pytest.approx(0.030, abs=0.006)
-    simulated.control("time")
     lost = {name: count for name, (_, count) in lost_samples(last.path, simulated.ledger).items()}
     assert lost["force_gauge"] == lost["dial_gauge"] == 0
     with h5py.File(last.path) as file:
