@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import select
-import struct
 import threading
 import time
 from collections.abc import Callable
@@ -13,13 +12,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from mocks.devices.ring import DEPTH
+from mocks.devices.ring import DEPTH, WORDS, packed
 from mocks.wire.terminal import Terminal
 
 Float = NDArray[np.float64]
 
 RING_RATE = 1000.0
-WORDS = DEPTH + 4
 PPM, SPREAD = 1e-6, 120
 SETTLE = 0.2  # s between the moment that everybody listens and the first byte
 
@@ -89,8 +87,7 @@ class RecordedRing:
         held = self.values[count - DEPTH - 1 - self.oldest : count - self.oldest]
         cells = np.zeros(DEPTH, np.int16)
         cells[np.arange(count - DEPTH, count) % DEPTH] = np.clip(np.diff(held), -32768, 32767)
-        told = struct.unpack(f">{WORDS}H", struct.pack(f">Ii{DEPTH}h", count & 0xFFFFFFFF, held[-1], *cells.tolist()))
-        return list(told) if self.word_order == "big" else [told[i ^ 1] for i in range(WORDS)]
+        return packed(count, int(held[-1]), cells, self.word_order)
 
 
 def _words(registers: NDArray[np.uint16]) -> tuple[str, NDArray[np.uint32]]:

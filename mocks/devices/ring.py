@@ -15,6 +15,7 @@ from mocks.devices.kernels import take_ring
 Float = NDArray[np.float64]
 
 DEPTH = 60
+WORDS = DEPTH + 4
 RATE = 1000.0
 UNIT = 1e-7  # m
 Sampled = Callable[[NDArray[np.int64], Float, Float, Float], None]
@@ -56,8 +57,11 @@ class Ring:
 
     def registers(self, word_order: str) -> list[int]:
         """The 64 registers at 2000: number of samples so far, the newest, then the cells."""
-        text = struct.pack(">Ii60h", self.count & 0xFFFFFFFF, self.newest, *self.cells.tolist())
-        words = struct.unpack(">64H", text)
-        if word_order == "big":
-            return list(words)
-        return [words[i ^ 1] for i in range(64)]
+        return packed(self.count, self.newest, self.cells, word_order)
+
+
+def packed(count: int, newest: int, cells: NDArray[np.int16], word_order: str) -> list[int]:
+    """The ring's registers [WORDS]: samples so far, the newest and the cells [DEPTH]."""
+    text = struct.pack(f">Ii{DEPTH}h", count & 0xFFFFFFFF, newest, *cells.tolist())
+    words = struct.unpack(f">{WORDS}H", text)
+    return list(words) if word_order == "big" else [words[i ^ 1] for i in range(WORDS)]

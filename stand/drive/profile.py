@@ -138,7 +138,8 @@ class MotionTable(_Part):
 class Trace(_Part):
     """A counted ring of position samples in registers.
 
-    newest: register of the newest sample as i32; where it is given, slot k mod depth holds sample k less sample k - 1.
+    newest: register of the newest sample as i32; where it is given, slot k mod depth holds sample k less sample k - 1,
+    and 16-bit slots lie two to a 32-bit number.
     """
 
     kind: Literal["none", "ring"] = "none"

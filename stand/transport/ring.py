@@ -32,7 +32,7 @@ class RingDecoder:
 
     def read_head(self, registers: NDArray[np.uint16]) -> int:
         """The number of samples written so far, unwrapped against the head before."""
-        raw = int(self._read(self._numbers(registers)[: self.head_words], self.trace.head_type)[0])
+        raw = int(self._numbers(registers[: self.head_words], self.trace.head_type)[0])
         if self.head is None:
             return raw
         modulus = 1 << (16 * self.head_words)
@@ -40,11 +40,12 @@ class RingDecoder:
 
     def samples(self, registers: NDArray[np.uint16], begin: int, head: int) -> NDArray[np.float64]:
         """Samples begin to head - 1, all of which the ring still holds, in SI, float64 [head - begin]."""
-        numbers = self._numbers(registers)
-        slots = self._slots(numbers)[np.arange(begin, head) % self.trace.depth].astype(np.int64)
+        offset = self.trace.base - self.trace.head
+        slots = self._numbers(registers[offset : offset + self.record_words * self.trace.depth], self.trace.record)
+        slots = slots[np.arange(begin, head) % self.trace.depth].astype(np.int64)
         if self.trace.newest is not None:
             at = self.trace.newest - self.trace.head
-            newest = int(self._read(numbers[at : at + 2], "i32")[0])
+            newest = int(self._numbers(registers[at : at + 2], "i32")[0])
             slots = newest - (slots.sum() - np.cumsum(slots))
         return self.direction * slots.astype(np.float64) * self.scale
 
@@ -64,17 +65,8 @@ class RingDecoder:
         flags = np.zeros(len(ticks), np.uint8)
         return Block(self.instrument, begin, values, ticks, flags, raw.response, request=raw.request)
 
-    def _slots(self, words: NDArray[np.uint16]) -> NDArray[np.generic]:
-        offset = self.trace.base - self.trace.head
-        return self._read(words[offset : offset + self.record_words * self.trace.depth], self.trace.record)
-
-    def _numbers(self, words: NDArray[np.uint16]) -> NDArray[np.uint16]:
-        """The registers with each 32-bit number's high word first, whichever way the drive sends them."""
-        if not self.swap or self.head_words == self.record_words == 1:
-            return words
-        even = len(words) // 2 * 2
-        return np.concatenate((words[:even].reshape(-1, 2)[:, ::-1].reshape(-1), words[even:]))
-
-    @staticmethod
-    def _read(words: NDArray[np.uint16], kind: str) -> NDArray[np.generic]:
+    def _numbers(self, words: NDArray[np.uint16], kind: str) -> NDArray[np.generic]:
+        """Numbers of a kind; differences lie two to a 32-bit number, and turn with its words."""
+        if self.swap and (_WORDS[kind] == 2 or self.trace.newest is not None):
+            words = words.reshape(-1, 2)[:, ::-1].reshape(-1)
         return np.ascontiguousarray(words).astype(">u2").view(_DTYPES[kind])
