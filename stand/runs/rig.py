@@ -40,7 +40,7 @@ class Rig:
         self.identities: dict[str, dict[str, str]] = {}
         order = stop_order(stand)
         self.quick_stop, self.guardian = QuickStop(order), Guardian(order, report=report)
-        watch = [self._guardian_lives] if moves else []
+        watch = [self.guardian_trip] if moves else []
         self.supervisor = Supervisor([], self._trip, stale=stale_rule(stand), others=watch)
         self.acquisition = Acquisition(stand, self.readers, self.supervisor, self._publish, self._lost)
         self._reading, self._armed = False, False
@@ -180,6 +180,7 @@ class Rig:
     def _publish(self, message: LiveBlock | Health) -> None:
         self.publish(message)
 
-    def _guardian_lives(self) -> Trip | None:
+    def guardian_trip(self) -> Trip | None:
+        """A trip where the drive may move and its guardian is silent."""
         why = self.guardian.check() if self._armed else None
         return Trip("guardian", why, arrival=time.monotonic()) if why else None

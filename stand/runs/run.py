@@ -19,7 +19,6 @@ from stand.runs.priority import ahead
 from stand.runs.rig import Rig
 from stand.runs.rules import guide_rule, preparing_rules, standing_rules
 from stand.runs.streams import stream_specs
-from stand.safety import Trip
 from stand.targets import make_folder
 
 AFTER_TRIP = 0.3
@@ -198,8 +197,8 @@ class Moment:
         if elapsed >= self._told + TELL:
             self._told = elapsed
             self.rig.publish(Progress(elapsed, self.motion.duration, 0, 0))
-        if (why := self.rig.guardian.check()) is not None:
-            self.rig.supervisor.raise_trip(Trip("guardian", why, arrival=time.monotonic()))
+        if (trip := self.rig.guardian_trip()) is not None:
+            self.rig.supervisor.raise_trip(trip)
         return self.rig.halt.wanted()
 
     def end(self) -> None:

@@ -5,6 +5,9 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
+#: s that a thread is waited for
+PATIENCE = 2.0
+
 
 class Worker:
     """One thread at a time; its work asks `stopping` whether to go on. name: of the thread."""
@@ -25,9 +28,9 @@ class Worker:
         self._thread = threading.Thread(target=work, args=given, name=self._name, daemon=True)
         self._thread.start()
 
-    def stop(self, timeout: float = 2.0) -> None:
+    def stop(self) -> None:
         """Ask it to end and wait; harmless twice, and from the thread itself."""
         self.stopping.set()
         if self._thread is not None and self._thread is not threading.current_thread():
-            self._thread.join(timeout)
+            self._thread.join(PATIENCE)
         self._thread = None

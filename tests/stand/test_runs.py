@@ -101,11 +101,11 @@ def test_a_run_whose_guardian_falls_silent_is_tripped_and_never_called_finished(
         halt.want(str(trip))
 
     rig = SimpleNamespace(
-        guardian=SimpleNamespace(check=lambda: "no heartbeat for 0.300 s"),
+        guardian_trip=lambda: Trip("guardian", "no heartbeat for 0.300 s"),
         supervisor=SimpleNamespace(raise_trip=raise_trip),
         halt=halt,
         publish=lambda event: None,
     )
-    moment = Moment(rig, SimpleNamespace(duration=1.0), Span())  # type: ignore[arg-type]
+    moment = Moment(rig, SimpleNamespace(duration=1.0), Span())  # type: ignore[arg-type]  # of both only what a step asks
     assert moment.should_stop()
     assert trips[0].rule == "guardian"

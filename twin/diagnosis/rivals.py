@@ -16,7 +16,7 @@ from twin.diagnosis.search import NEEDED, Search, backward, begin, error, gained
 TEMPER = 8.0
 #: squared error that may remain, in the sensors' noise, and how far causes named with so much left can be trusted: on
 #: the batteries of seeds 20261 and 20263 52 of 54 and 13 of 14 were right; with more left none of 5 on the second
-TRUST = ((1.15, 0.98), (2.0, 0.9), (float("inf"), 0.3))
+TRUST, LITTLE = ((1.15, 0.98), (2.0, 0.9)), 0.3
 ALIKE = 40.0
 MOST = 4
 SWAPS = 3
@@ -82,7 +82,7 @@ def _standing(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> Stand
     weights = {n: float(np.exp(-max(d, 0.0) / (2 * TEMPER))) for n, d in behind.items()}
     alike = tuple(sorted((n for n, d in behind.items() if d < ALIKE), key=lambda n: behind[n]))
     remaining = float(error(problem, final.residual).max())
-    trust = next(share for left, share in TRUST if remaining < left)
+    trust = next((share for left, share in TRUST if remaining < left), LITTLE)
     return Standing(cause.name, behind, trust / (1.0 + sum(weights.values())), alike, fits)
 
 

@@ -34,6 +34,7 @@ def windows(starts, own, constants, run, first, length, drive, dt, before, bp, a
         y[:4] = starts[j]
         y[4:] = own[j]
         at = offset[run[j]] + first[j]
+        q[k.XDD] = (drive[at + 1, 1] - drive[at, 1]) / dt
         rates(y, q, c, first[j] * dt, drive[at, 0], drive[at, 1], before, bp, after, ap, 1, 1)
         mode[0] = 1
         mode[1] = 1
@@ -104,6 +105,7 @@ def carry(y, c, drive, start, dt, before, bp, after, ap, mode, out):  # type: ig
     end = np.empty(4 + k.STATES)
     row = np.empty(4)
     n = len(drive) - 1
+    q[k.XDD] = (drive[1, 1] - drive[0, 1]) / dt
     rates(y, q, c, start, drive[0, 0], drive[0, 1], before, bp, after, ap, mode[0], mode[1])
     for i in range(n):
         row[0] = drive[i, 0]
