@@ -21,6 +21,7 @@ def test_a_twins_notes_are_kept_though_a_screen_reads_the_fresh_run_just_then(tm
     time = np.arange(2000) / 2000.0
     still = np.zeros(2000)
     beside.push(LiveBlock(0, time, still, still, still + 15.2, np.zeros(2000, np.uint8), 1.0))
+    assert beside.finish() is not None  # what it waits for must not be the reader's chance
     reader = h5py.File(path, "r")
     threading.Timer(0.4, reader.close).start()
     store(path, beside)

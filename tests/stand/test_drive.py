@@ -186,6 +186,17 @@ def test_a_ring_whose_slots_hold_positions_is_read_as_such() -> None:
     assert block.values == pytest.approx((300_000 - np.arange(70, 100)) * 1e-7)
 
 
+def test_plain_slots_of_16_bits_keep_their_places_where_longer_numbers_are_turned() -> None:
+    profile = load_profile("nanotec-cia402")
+    plain = profile.trace.model_copy(update={"newest": None, "base": 2002, "depth": 4, "record": "i16"})
+    decoder = RingDecoder(profile.model_copy(update={"trace": plain}))
+    decoder.swap, decoder.head = True, 65_537
+    words = np.array([3, 1, 400, 100, 200, -300], np.int16).view(np.uint16)  # head 1 << 16 | 3, its low word first
+    block = decoder.decode(RawRegisters("drive", words, 1.0, 1.001))
+    assert block is not None
+    assert block.values == pytest.approx([100e-7, 200e-7])
+
+
 def test_samples_that_the_ring_overwrote_are_counted() -> None:
     decoder = RingDecoder(load_profile("nanotec-cia402"))
     decoder.decode(_poll(100, {}))
