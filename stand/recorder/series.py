@@ -2,7 +2,8 @@
 
 One chunk holds the whole expected run and the chunk cache is off, so that an append writes samples straight to their
 place and a flush changes nothing but the length in the object's header: a process killed at any moment leaves a file
-that opens. (An index that grows while the process dies is what breaks HDF5 files.)
+that opens. (An index that grows while the process dies is what breaks HDF5 files.) Nothing fills a chunk's room before
+it is written: at the first append that would take 26 ms a dataset of a run of ten minutes, the interpreter's lock held.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ class Series:
         row = np.dtype(dtype).itemsize * max(width, 1)
         rows = max(1024, min(capacity, _LARGEST // row))
         self.dataset = group.create_dataset(
-            name, shape=(0, *tail), maxshape=(None, *tail), chunks=(rows, *tail), dtype=dtype
+            name, shape=(0, *tail), maxshape=(None, *tail), chunks=(rows, *tail), dtype=dtype, fill_time="never"
         )
         if units:
             self.dataset.attrs["units"] = units

@@ -32,8 +32,8 @@ SPECS = (
 EXCITATION = Excitation(Shape.TRAPEZOIDAL, 1.0, 0.02, 0.1, 2)
 
 
-def plan() -> FilePlan:
-    return FilePlan(SPECS, Setup(), EXCITATION, 'name = "x"', seconds=2.0)
+def plan(seconds: float = 2.0) -> FilePlan:
+    return FilePlan(SPECS, Setup(), EXCITATION, 'name = "x"', seconds=seconds)
 
 
 def grid(first: int, n: int, value: float) -> LiveBlock:
@@ -97,6 +97,16 @@ def test_a_run_longer_than_its_reserve_is_kept_whole(tmp_path: Path) -> None:
         feed(recorder, n, float(n))
     recorder.close()
     assert len(read_recording(tmp_path / "run.h5").time) == 30000
+
+
+def test_a_long_run_s_first_samples_do_not_wait_until_room_for_all_is_filled(tmp_path: Path) -> None:
+    recorder = Recorder(tmp_path / "run.h5", plan(seconds=3600.0))
+    recorder.start()
+    feed(recorder, 0, 0.0)
+    recorder.close()
+    about = (tmp_path / "run.h5").stat()
+    assert about.st_size > 50e6  # room for the hour
+    assert about.st_blocks * 512 < 1e6  # of which next to nothing has been written
 
 
 def test_an_existing_file_is_not_overwritten(tmp_path: Path) -> None:
