@@ -14,6 +14,8 @@ from dataclasses import dataclass, replace
 from stand.setup import Setup, System
 from twin.causes._kind import Cause
 
+#: owners of what the setup states; all else belongs to a cause
+STATED = ("base", "run")
 WITHIN = 3.0
 TIMING = 4e-5
 OFFSET = 4e-6

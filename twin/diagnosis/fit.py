@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twin.diagnosis.composition import Composition
+from twin.diagnosis.coordinates import STATED
 from twin.diagnosis.problem import Problem
 
 Float = NDArray[np.float64]
@@ -17,7 +18,6 @@ FLOOR = 0.4
 STEP = 0.02
 START_STEP = 0.1
 FAR = 8.0
-STATED = ("base", "run")
 BASE_EVERY, BEGIN_EVERY = 4, 2
 
 

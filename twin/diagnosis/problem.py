@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from itertools import pairwise
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stand.setup import System
+from twin.causes._kind import Undo
 from twin.diagnosis.composition import Composition, Hooks
+from twin.diagnosis.coordinates import STATED
 from twin.diagnosis.run import BURN, LENGTH, Run, Windows, half
+from twin.diagnosis.shared import shared, spread
 from twin.diagnosis.smooth import curvature, gains, polynomial
 from twin.kernels import composed, composed_sense
 from twin.kernels import composed_slots as k
 
 Float = NDArray[np.float64]
 Index = NDArray[np.int64]
-WORKERS = 2
-STEP = 0.02
-_POOL = ThreadPoolExecutor(WORKERS)
 FINE = 5e-4  # s between samples at which local polynomials follow any motion of a stand
 
 
@@ -85,8 +84,7 @@ class Problem:
     def simulate(self, model: Composition, z: Float, starts: Float) -> tuple[Float, NDArray[np.int64]]:
         """True signals [w, LENGTH, 5] and each window's status."""
         undo = model.undo(z)
-        rest = [(r.rest_force - undo.F_offset) / undo.F_gain for r in self.runs]
-        constants = model.constants(z, rest)
+        constants = self._constants(model, z, undo)
         drive = self._driven(model, z)
         before, after = model.hooks(z, "before"), model.hooks(z, "after")
         own = self._own(model, z, constants, drive, before, after)
@@ -94,13 +92,31 @@ class Problem:
         state = np.ascontiguousarray(centre + starts * self.spread)
         return self._carry(state, own, constants, drive, before, after, LENGTH)
 
+    def _constants(self, model: Composition, z: Float, undo: Undo) -> Float:
+        """Every run's constants; they hang on the base values and the true rest forces alone."""
+        rest = [(r.rest_force - undo.F_offset) / undo.F_gain for r in self.runs]
+        stated = tuple(float(v) for v, c in zip(z, model.coordinates, strict=True) if c.owner in STATED)
+        key = ("constants", tuple(c.name for c in model.causes), stated, tuple(rest))
+        if key not in self._cache:
+            self._forget("constants", 4)
+            self._cache[key] = model.constants(z, rest)
+        constants: Float = self._cache[key]
+        return constants
+
+    def _forget(self, kind: str, keep: int = 0) -> None:
+        """Drops all but the newest of what is kept of a kind."""
+        mine = [key for key in self._cache if key[0] == kind]
+        for old in mine[: len(mine) - keep]:
+            del self._cache[old]
+
     def sense(self, model: Composition, z: Float, simulated: Float) -> Float:
         """The gauges' readings of simulated windows."""
         hooks, out = model.hooks(z, "senses"), np.empty((len(self.windows), LENGTH, 2))
         late = model.base_value(z, "late_u"), model.base_value(z, "late_F")
         w = self.windows
-        _threads(
+        spread(
             len(w),
+            LENGTH,
             lambda a, b: composed_sense.sense(
                 simulated[a:b], w.run[a:b], w.first[a:b], self.dt, *late, hooks.address, hooks.p, out[a:b]
             ),
@@ -119,9 +135,8 @@ class Problem:
                 x, speed = r.x.value.copy(), r.x.rate.copy()
                 composed_sense.drive_end(x, speed, self.dt, hooks.address, hooks.p)
                 parts.append(np.column_stack([x, speed]))
-            self._cache = {key: np.ascontiguousarray(np.concatenate(parts))} | {
-                a: b for a, b in self._cache.items() if a[0] != "drive"
-            }
+            self._forget("drive")
+            self._cache[key] = np.ascontiguousarray(np.concatenate(parts))
         driven: Float = self._cache[key]
         return driven
 
@@ -132,11 +147,9 @@ class Problem:
             return own
         key = ("own", tuple(c.name for c in model.causes), before.p.tobytes(), after.p.tobytes())
         if key not in self._cache:
+            self._forget("own", 5)
             self._cache[key] = own
-            for r in range(len(self.runs)):
-                self._history(r, own, constants, drive, before, after)
-            for old in [a for a in self._cache if a[0] == "own"][:-6]:
-                del self._cache[old]
+            shared([partial(self._history, r, own, constants, drive, before, after) for r in range(len(self.runs))])
         cached: Float = self._cache[key]
         return cached
 
@@ -219,23 +232,15 @@ class Problem:
     ) -> tuple[Float, NDArray[np.int64]]:
         w = self.windows
         out, status = np.empty((len(w), length, 5)), np.zeros(len(w), np.int64)
-        _threads(
+        spread(
             len(w),
+            length,
             lambda a, b: composed.windows(
                 state[a:b], own[a:b], constants, w.run[a:b], w.first[a:b], length, drive, self.dt,
                 before.address, before.p, after.address, after.p, self.offset, out[a:b], status[a:b],
             ),
         )  # fmt: skip
         return out, status
-
-
-def _threads(n: int, work: Any) -> None:
-    """work(first, last) over 0..n, shared between the workers."""
-    if n < 4 * WORKERS:
-        work(0, n)
-        return
-    cuts = np.linspace(0, n, 2 * WORKERS + 1).astype(int)
-    list(_POOL.map(lambda pair: work(*pair), pairwise(cuts)))
 
 
 __all__ = ["BURN", "Problem"]

@@ -1,53 +1,53 @@
+# mypy: allow-untyped-defs, allow-untyped-calls
 """Many short windows, a measured run's own states, or one long simulation, all by the composed stepper."""
 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from twin.kernels import composed_slots as k
-from twin.kernels.composed_step import advance, gaps, rates
+from twin.kernels.composed_force import begin, evaluate
+from twin.kernels.composed_step import DV, FULL, T2, advance, settle
+from twin.kernels.jit import compiler
 
 _V = "float64[::1]"
 _M = "float64[:,::1]"
 _A = "int64[::1]"
 _HOOKS = f"{_A},{_M},{_A},{_M}"
 
+#: most that a state decays over one step of its history, and most steps a sample
+_DECAY, _PIECES = 0.7, 8
 
-@njit(f"void({_M},{_M},{_M},{_A},{_A},int64,{_M},float64,{_HOOKS},{_A},float64[:,:,::1],{_A})", cache=True, nogil=True)
-def windows(starts, own, constants, run, first, length, drive, dt, before, bp, after, ap, offset, out, status):  # type: ignore[no-untyped-def]
+compiled = compiler("composed")
+
+
+@compiled(f"void({_M},{_M},{_M},{_A},{_A},int64,{_M},float64,{_HOOKS},{_A},float64[:,:,::1],{_A})")
+def windows(starts, own, constants, run, first, length, drive, dt, before, bp, after, ap, offset, out, status):
     """Simulate every window.
 
     starts [w, 4] u, v, s, w; own [w, 8] the causes' states; constants [runs, 14]; run, first [w] the window's run and
     its first sample there; offset [runs] where a run begins in drive [all, 2] (x, x'); out [w, length, 5] u, v, F,
     x'', s; status [w] 0 or 2. A window begins after and ends before the run's first and last sample.
     """
-    y = np.empty(4 + k.STATES)
-    end = np.empty(4 + k.STATES)
-    q = np.zeros(k.SIZE)
-    work = np.zeros((6, 4 + k.STATES))
-    row = np.empty(4)
+    y, end, q, row = np.empty(FULL), np.empty(FULL), np.zeros(k.SIZE), np.empty(4)
     mode = np.ones(2, np.int64)
-    gap = np.empty(4 + k.STATES)
     for j in range(len(run)):
-        c = constants[run[j]]
+        c, at, time = constants[run[j]], offset[run[j]] + first[j], first[j] * dt
+        begin(q, c)
         y[:4] = starts[j]
-        y[4:] = own[j]
-        at = offset[run[j]] + first[j]
+        y[4:DV] = own[j]
         q[k.XDD] = (drive[at + 1, 1] - drive[at, 1]) / dt
-        rates(y, q, c, first[j] * dt, drive[at, 0], drive[at, 1], before, bp, after, ap, 1, 1)
-        mode[0] = 1
-        mode[1] = 1
-        if c[k.K_SYSTEM] != k.AXIS:
-            gaps(q, gap)
-            mode[0] = 1 if gap[0] > 0.0 else 0
-            mode[1] = 1 if gap[1] > 0.0 else 0
-        rates(y, q, c, first[j] * dt, drive[at, 0], drive[at, 1], before, bp, after, ap, mode[0], mode[1])
+        mode[0] = mode[1] = 1
+        on1, on2 = settle(y, q, c, drive[at, 0], drive[at, 1], time, before, bp, after, ap, mode)
+        if c[k.K_SYSTEM] != k.AXIS and not (on1 and on2):
+            mode[0] = 1 if on1 else 0
+            mode[1] = 1 if on2 else 0
+            settle(y, q, c, drive[at, 0], drive[at, 1], time, before, bp, after, ap, mode)
         status[j] = 0
         for i in range(length):
             out[j, i, 0] = y[0]
             out[j, i, 1] = y[1]
-            out[j, i, 2] = q[k.T2]
+            out[j, i, 2] = y[T2]
             out[j, i, 3] = (drive[at + i + 1, 1] - drive[at + i - 1, 1]) / (2.0 * dt)
             out[j, i, 4] = y[2]
             if i == length - 1 or status[j] != 0:
@@ -56,68 +56,69 @@ def windows(starts, own, constants, run, first, length, drive, dt, before, bp, a
             row[1] = drive[at + i, 1]
             row[2] = drive[at + i + 1, 0]
             row[3] = drive[at + i + 1, 1]
-            status[j] = advance(y, q, c, row, (first[j] + i) * dt, dt, before, bp, after, ap, work, end, mode)
+            status[j] = advance(y, q, c, row, (first[j] + i) * dt, dt, before, bp, after, ap, mode, end)
 
 
-@njit(f"void({_M},{_M},{_V},{_M},float64,{_HOOKS},{_M})", cache=True, nogil=True)
-def history(path, drive, c, own, dt, before, bp, after, ap, out):  # type: ignore[no-untyped-def]
+@compiled(f"void({_M},{_M},{_V},{_M},float64,{_HOOKS},{_M})")
+def history(path, drive, c, own, dt, before, bp, after, ap, out):
     """The causes' own states along a measured run: path [n, 4] u, v, s, w; own [1, 8] at its start; out [n, 8].
 
-    Heun's rule, once or twice a sample; tensions are what the strands give on that path.
+    The midpoint rule, its half step from the slope before; as many steps a sample as the hooks' decay asks for.
+    Tensions are what the strands give on that path.
     """
-    n = len(path)
-    y = np.empty(4 + k.STATES)
-    q = np.zeros(k.SIZE)
-    gap = np.empty(2)
-    state = own[0].copy()
-    slope = np.empty(k.STATES)
-    pieces = 1 if dt < 0.6e-3 else 2
-    h = dt / pieces
+    n, count = len(path), int(c[k.K_OWN])
+    y, q = np.zeros(4 + k.STATES), np.zeros(k.SIZE)
+    state, slope = own[0].copy(), np.zeros(k.STATES)
+    least = 1 if dt < 0.6e-3 else 2
+    begin(q, c)
     for i in range(n):
         out[i] = state
         if i == n - 1:
             break
+        pieces = min(max(least, int(np.ceil(dt * q[k.STIFF] / _DECAY))), _PIECES)
+        h = dt / pieces
         for piece in range(pieces):
-            for half in range(2):
-                theta = (piece + half) / pieces
-                for m in range(4):
-                    y[m] = path[i, m] + theta * (path[i + 1, m] - path[i, m])
-                x = drive[i, 0] + theta * (drive[i + 1, 0] - drive[i, 0])
-                xd = drive[i, 1] + theta * (drive[i + 1, 1] - drive[i, 1])
-                for m in range(int(c[k.K_OWN])):
-                    y[4 + m] = state[m] + (h * slope[m] if half else 0.0)
-                rates(y, q, c, (i + theta) * dt, x, xd, before, bp, after, ap, 1, 1)
-                gaps(q, gap)
-                if gap[0] <= 0.0 or gap[1] <= 0.0:
-                    taut1, taut2 = int(gap[0] > 0.0), int(gap[1] > 0.0)
-                    rates(y, q, c, (i + theta) * dt, x, xd, before, bp, after, ap, taut1, taut2)
-                for m in range(int(c[k.K_OWN])):
-                    if half:
-                        state[m] += 0.5 * h * (slope[m] + q[k.RATE + m])
-                    slope[m] = q[k.RATE + m]
+            theta = (piece + 0.5) / pieces
+            for m in range(4):
+                y[m] = path[i, m] + theta * (path[i + 1, m] - path[i, m])
+            x = drive[i, 0] + theta * (drive[i + 1, 0] - drive[i, 0])
+            xd = drive[i, 1] + theta * (drive[i + 1, 1] - drive[i, 1])
+            for m in range(count):
+                y[4 + m] = state[m] + 0.5 * h * slope[m]
+            on1, on2 = True, True
+            for _ in range(2):  # once more where a strand turns out to be slack
+                taut1, taut2 = on1, on2
+                _, _, _, on1, on2 = evaluate(
+                    y[0], y[1], y[2], y[3], x, xd, (i + theta) * dt, y, q, c, before, bp, after, ap, taut1, taut2
+                )
+                if on1 and on2:
+                    break
+            for m in range(count):
+                slope[m] = q[k.RATE + m]
+                state[m] += h * slope[m]
 
 
-@njit(f"int64({_V},{_V},{_M},float64,float64,{_HOOKS},{_A},{_M})", cache=True, nogil=True)
-def carry(y, c, drive, start, dt, before, bp, after, ap, mode, out):  # type: ignore[no-untyped-def]
-    """Carry y, mode [2] (in place) over len(drive) - 1 samples from time `start`; out [n, 5] at samples 1..n."""
-    q = np.zeros(k.SIZE)
-    work = np.zeros((6, 4 + k.STATES))
-    end = np.empty(4 + k.STATES)
-    row = np.empty(4)
-    n = len(drive) - 1
+@compiled(f"int64({_V},{_V},{_M},float64,float64,{_HOOKS},{_A},{_M})")
+def carry(y, c, drive, start, dt, before, bp, after, ap, mode, out):
+    """Carry y [12], mode [2] (in place) over len(drive) - 1 samples from time `start`; out [n, 5] at samples 1..n."""
+    full, end, q, row = np.zeros(FULL), np.zeros(FULL), np.zeros(k.SIZE), np.empty(4)
+    n, status = len(drive) - 1, 0
+    begin(q, c)
+    full[:DV] = y
     q[k.XDD] = (drive[1, 1] - drive[0, 1]) / dt
-    rates(y, q, c, start, drive[0, 0], drive[0, 1], before, bp, after, ap, mode[0], mode[1])
+    settle(full, q, c, drive[0, 0], drive[0, 1], start, before, bp, after, ap, mode)
     for i in range(n):
         row[0] = drive[i, 0]
         row[1] = drive[i, 1]
         row[2] = drive[i + 1, 0]
         row[3] = drive[i + 1, 1]
-        status = advance(y, q, c, row, start + i * dt, dt, before, bp, after, ap, work, end, mode)
+        status = advance(full, q, c, row, start + i * dt, dt, before, bp, after, ap, mode, end)
         if status != 0:
-            return status
-        out[i, 0] = y[0]
-        out[i, 1] = y[1]
-        out[i, 2] = q[k.T2]
+            break
+        out[i, 0] = full[0]
+        out[i, 1] = full[1]
+        out[i, 2] = full[T2]
         out[i, 3] = (drive[i + 1, 1] - drive[i, 1]) / dt
-        out[i, 4] = y[2]
-    return 0
+        out[i, 4] = full[2]
+    y[:] = full[:DV]
+    return status

@@ -43,7 +43,9 @@ AUX: Final = 32  # the causes' own states
 RATE: Final = 40  # their rates
 STATES: Final = 8
 SHARED: Final = 48  # mass that couples the accelerations of weight and rim, kg
-SIZE: Final = 49
+ZERO1: Final = 49  # the weight strand's elongation at u = s = 0, m
+ZERO2: Final = 50  # the drive strand's at s = x = 0, m
+SIZE: Final = 51
 
 # columns of a run's constants
 (K_MASS, K_WEIGHT, K_C1, K_C2, K_B1, K_B2, K_RIM, K_FC, K_VS, K_REST, K_RADIUS, K_OFFSET, K_SYSTEM, K_OWN) = range(14)
