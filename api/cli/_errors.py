@@ -11,13 +11,6 @@ from stand.errors import InputError, StandError
 BAD_INPUT, FAILED = 2, 1
 
 
-class NotYet(StandError):
-    """Asked for something that this version does not do."""
-
-    def __init__(self, what: str) -> None:
-        super().__init__("not yet", where=what)
-
-
 def exit_code(error: BaseException) -> int:
     """2 where the user's input is at fault, 1 otherwise."""
     return BAD_INPUT if isinstance(error, InputError) else FAILED

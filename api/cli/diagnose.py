@@ -20,11 +20,12 @@ def command(
 ) -> None:
     """Run the command."""
     from api.cli._after import diagnose_and_tell
-    from api.cli._errors import NotYet
+    from twin.diagnosis import Options
+    from twin.diagnosis.work import Dask, Here
 
-    if dask:
-        raise NotYet("spreading a diagnosis over a Dask cluster")
     beside = None if json is None or quiet(json) else json
-    done = diagnose_and_tell(recordings, json=beside, page=page, silent=quiet(json))
+    with Dask(dask) if dask else Here() as work:
+        options = Options(work=work)
+        done = diagnose_and_tell(recordings, json=beside, page=page, silent=quiet(json), options=options)
     if quiet(json):
         write_json(done["verdict"], json)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from numba import cfunc
@@ -11,6 +12,7 @@ from numba import cfunc
 from stand.setup import Setup, System
 from twin.kernels.composed_call import DYNAMICS, INPUT, SENSOR
 from twin.parameter import Parameter, Source
+from twin.plugins import every
 
 Values = Mapping[str, float]
 dynamics = cfunc(DYNAMICS, cache=True)
@@ -112,6 +114,9 @@ class Cause:
     choice: str | None = None
     variants: tuple[Cause, ...] = ()
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return named, (self.name,)  # hooks are addresses in this process: elsewhere the catalogue has its own
+
     @property
     def null(self) -> dict[str, float]:
         """Every parameter at its null or first value."""
@@ -132,3 +137,15 @@ def grid(null: Values, **axes: Sequence[float]) -> list[dict[str, float]]:
     for name, values in axes.items():
         points = [{**point, name: value} for point in points for value in values]
     return points
+
+
+@cache
+def _by_name() -> dict[str, Cause]:
+    import twin.causes
+
+    return {c.name: c for cause in every(twin.causes, Cause) for c in (cause, *cause.variants)}
+
+
+def named(name: str) -> Cause:
+    """The catalogue's cause, or one of the variants, of that name."""
+    return _by_name()[name]

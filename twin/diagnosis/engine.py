@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from twin.diagnosis.search import Search, backward, calibrate, error, forward, g
 from twin.diagnosis.tell import tell
 from twin.diagnosis.unknown import look
 from twin.diagnosis.verdict import Verdict
+from twin.diagnosis.work import Here, Work
 from twin.plugins import every
 
 #: share by which a cause must lower the error on windows that were not fitted
@@ -35,11 +36,14 @@ Progress = Callable[[str, float], None]
 
 @dataclass(frozen=True)
 class Options:
-    """windows: per run, in all and in the search. causes: names to consider, all where empty."""
+    """windows: per run, in all and in the search. causes: names to consider, all where empty. work: who does the
+    fits that don't hang on each other.
+    """
 
     windows: int = 24
     searched: int = 10
     causes: tuple[str, ...] = ()
+    work: Work = field(default_factory=Here)
 
 
 def _silent(what: str, fraction: float) -> None:
@@ -70,7 +74,9 @@ def diagnose(
     progress("calibrating", 0.15)
     trained = problem.part(_searched(problem, options.searched))
     able = [c for c in catalogue if c.how != "line" and c.name not in {limit.cause for limit in limits}]
-    search = forward(trained, calibrate(trained), able, progress)
+    base = calibrate(trained)
+    search = Search(trained, base, base, options.work, ladder=[base])
+    forward(search, able, progress)
     progress("checking", 0.75)
     backward(search)
     ranks = settle(search, able)

@@ -44,6 +44,9 @@ class Problem:
         self._polynomials()
         self.sigma = np.array([[self._sigma(r), r.noise_F] for r in self.runs])[self.windows.run]
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Problem, (self.runs, self.windows)  # what is cached stays at home
+
     def _sigma(self, run: Run) -> float:
         """One sigma of a place: the gauge's, and on an axis what the measured force's own noise adds until half-way."""
         if self.system is not System.LINEAR_DRIVE:

@@ -10,6 +10,7 @@ import numpy as np
 from twin.causes._kind import Cause
 from twin.diagnosis.fit import Fitted, fit, loss, scale, slopes
 from twin.diagnosis.found import Rival
+from twin.diagnosis.problem import Problem
 from twin.diagnosis.score import score
 from twin.diagnosis.search import NEEDED, Search, backward, begin, error, gained, prior_price, without
 
@@ -75,9 +76,9 @@ def _standing(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> Stand
     problem, final = search.problem, search.current
     spread = scale(problem, final.residual)
     here = loss(final.residual, spread) + prior_price(final)
-    fits: dict[str, Fitted] = {}
-    for rival in _candidates(search, cause, catalogue):
-        fits[rival.name] = _instead(search, cause, rival)
+    rivals = _candidates(search, cause, catalogue)
+    promises = search.work.each(_instead, problem, [_place(search, cause, rival) for rival in rivals])
+    fits = {rival.name: promise() for rival, promise in zip(rivals, promises, strict=True)}
     behind = {n: loss(f.residual, spread) + prior_price(f) - here for n, f in fits.items()}
     weights = {n: float(np.exp(-max(d, 0.0) / (2 * TEMPER))) for n, d in behind.items()}
     alike = tuple(sorted((n for n, d in behind.items() if d < ALIKE), key=lambda n: behind[n]))
@@ -102,15 +103,19 @@ def _candidates(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> lis
     return [known[n] for n in order if n in known and n not in named][:MOST]
 
 
-def _instead(search: Search, cause: Cause, rival: Cause) -> Fitted:
+def _place(search: Search, cause: Cause, rival: Cause) -> tuple[Fitted, Cause, Cause, Fitted | None]:
+    """What `_instead` needs; last, an earlier refit of just those causes."""
+    want = {c.name for c in search.current.model.causes} - {cause.name} | {rival.name}
+    before = [f for f in search.refits if {c.name for c in f.model.causes} == want]
+    return search.current, cause, rival, before[0] if before else None
+
+
+def _instead(problem: Problem, final: Fitted, cause: Cause, rival: Cause, before: Fitted | None) -> Fitted:
     """The final model with the rival in the cause's place, from where the rival's own refit stands or its best
     trial.
     """
-    problem, final = search.problem, search.current
-    want = {c.name for c in final.model.causes} - {cause.name} | {rival.name}
-    for f in search.refits:
-        if {c.name for c in f.model.causes} == want:
-            return fit(problem, f.model, f.z, f.starts, iterations=6)
+    if before is not None:
+        return fit(problem, before.model, before.z, before.starts, iterations=6)
     less = without(problem, final, cause, iterations=3)
     scored = score(problem, less, [rival], slopes(problem, less))[0]
     if not scored.trials:

@@ -18,11 +18,13 @@ from twin.diagnosis.fit import Fitted, Linear, carried, fit, loss, scale, slopes
 from twin.diagnosis.precision import covariance
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.score import Scored, score, survey
+from twin.diagnosis.work import Here, Work
 
 Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 SHORT_LIST = 7
 FINALISTS = 4
+QUICK, LONG = 3, 12
 MOST = 4
 NEEDED = 0.012
 NOISE = 1.12
@@ -36,11 +38,14 @@ REACHED = frozenset({"level", "position", "friction"})
 
 @dataclass
 class Search:
-    """What was tried: current fit, the base fit it began from, scores of the first round, and every refit."""
+    """What was tried: current fit, the base fit it began from, scores of the first round, and every refit; work: who
+    does independent fits.
+    """
 
     problem: Problem
     base: Fitted
     current: Fitted
+    work: Work = field(default_factory=Here)
     scores: list[Scored] = field(default_factory=list)
     last_scores: list[Scored] = field(default_factory=list)
     refits: list[Fitted] = field(default_factory=list)
@@ -101,26 +106,27 @@ def try_causes(
     scored: Sequence[Scored],
     direct: Sequence[Scored],
     linear: Linear,
-    quick: int = 3,
-    long: int = 12,
+    work: Work,
 ) -> list[Fitted]:
     """Refits of the most promising causes, best first; those far behind are only begun. linear: `fitted`'s slopes."""
     begun: list[Fitted] = []
     settled: set[str] | None = None
     keep = telling(problem, fitted)
-    few, part = problem.part(keep), _part(fitted, keep)
-    for s, plain in _interleaved(scored, direct):
+    few, part, order = problem.part(keep), _part(fitted, keep), _interleaved(scored, direct)
+    promises = work.each(_begin_fit, few, [(part, s, None if plain else (linear, keep)) for s, plain in order])
+    for (s, plain), promise in zip(order, promises, strict=True):
         if settled is not None and s.cause.name not in settled and (plain or s.gain < 0.5 * scored[0].gain):
             continue
-        begun.append(_begin_fit(few, part, s, plain, quick, (linear, keep)))
+        begun.append(promise())
         if settled is None and error(few, begun[-1].residual).max() < NOISE:
             settled = set(s.cause.rivals)
-    begun = [_whole(problem, fitted, f, keep) for f in ranked(few, begun)]
+    begun = [p() for p in work.each(_whole, problem, [(fitted, f, keep) for f in ranked(few, begun)])]
     done: list[Fitted] = []
-    for f in begun[:FINALISTS]:
+    finalists = begun[:FINALISTS]
+    for f, promise in zip(finalists, work.each(_long_fit, problem, [(f,) for f in finalists]), strict=True):
         if done and _behind(problem, f, done[0]):
             continue
-        done = ranked(problem, [*done, fit(problem, f.model, f.z, f.starts, iterations=long)])
+        done = ranked(problem, [*done, promise()])
     names = {_last(f) for f in done}
     return done + [f for f in begun if _last(f) not in names]
 
@@ -161,18 +167,20 @@ def _interleaved(scored: Sequence[Scored], direct: Sequence[Scored]) -> list[tup
     return order[:10] if direct else order
 
 
-def _begin_fit(
-    problem: Problem, fitted: Fitted, scored: Scored, plain: bool, quick: int, known: tuple[Linear, Index]
-) -> Fitted:
+def _begin_fit(problem: Problem, fitted: Fitted, scored: Scored, known: tuple[Linear, Index] | None) -> Fitted:
     model, z = begin(fitted, scored)
-    if not plain:
+    if known is not None:
         begun = carried(known[0], fitted.model, model, known[1])
-        return fit(problem, model, z, fitted.starts, iterations=quick, known=begun)
+        return fit(problem, model, z, fitted.starts, iterations=QUICK, known=begun)
     if not fitted.model.causes:
         stated = np.array([c.owner in ("base", "run") for c in model.coordinates])
         z = np.where(stated, 0.0, z)
     settled = fit(problem, model, z, iterations=1, fixed=np.ones(len(z), bool))
-    return fit(problem, model, z, settled.starts, iterations=quick + 1)
+    return fit(problem, model, z, settled.starts, iterations=QUICK + 1)
+
+
+def _long_fit(problem: Problem, begun: Fitted) -> Fitted:
+    return fit(problem, begun.model, begun.z, begun.starts, iterations=LONG)
 
 
 def _last(fitted: Fitted) -> str:
@@ -200,9 +208,9 @@ def prior_price(fitted: Fitted) -> float:
     return float(np.sum((fitted.z / priors) ** 2)) + 20.0 * free
 
 
-def forward(problem: Problem, base: Fitted, causes: Sequence[Cause], progress: Callable[[str, float], None]) -> Search:
+def forward(search: Search, causes: Sequence[Cause], progress: Callable[[str, float], None]) -> None:
     """Add causes while each lowers the short-window error by more than a little."""
-    search = Search(problem, base, base, ladder=[base])
+    problem = search.problem
     for turn in range(MOST):
         taken = {c.name for c in search.current.model.causes}
         progress(f"looking for {'a' if not turn else 'a further'} cause", 0.3 + 0.12 * turn)
@@ -212,14 +220,13 @@ def forward(problem: Problem, base: Fitted, causes: Sequence[Cause], progress: C
             search.scores = scored
         search.last_scores = scored
         direct = _direct(problem, search.current, left)
-        tried = try_causes(problem, search.current, [s for s in scored if s.gain > 15.0], direct, linear)
+        tried = try_causes(problem, search.current, [s for s in scored if s.gain > 15.0], direct, linear, search.work)
         search.refits += tried
         tried = [f for f in tried if sound(problem, search.current, f)]
         if not tried:
             break
         search.current = tried[0]
         search.ladder.append(tried[0])
-    return search
 
 
 def _direct(problem: Problem, fitted: Fitted, causes: Sequence[Cause]) -> list[Scored]:
@@ -272,7 +279,8 @@ def backward(search: Search) -> None:
     """Take back what a later cause made needless."""
     problem = search.problem
     while len(search.current.model.causes) > 1:
-        thinner = [without(problem, search.current, c) for c in search.current.model.causes]
+        one_less = [(search.current, c) for c in search.current.model.causes]
+        thinner = [promise() for promise in search.work.each(without, problem, one_less)]
         best = ranked(problem, thinner)[0]
         search.refits.append(best)
         if gained(problem, best, search.current) >= NEEDED:
