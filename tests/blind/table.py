@@ -6,9 +6,10 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from statistics import median
-from typing import Any
+from typing import Any, TypeVar
 
 Result = dict[str, Any]
+R = TypeVar("R")
 LEVELS = (1.0, 2.0, 5.0, 10.0)
 
 
@@ -21,7 +22,7 @@ def wilson(hits: int, n: int, z: float = 1.96) -> tuple[float, float]:
     return (centre - half) / (1 + z2 / n), (centre + half) / (1 + z2 / n)
 
 
-def share(name: str, results: Sequence[Result], hit: Callable[[Result], bool]) -> str:
+def share(name: str, results: Sequence[R], hit: Callable[[R], bool]) -> str:
     """One line: how many, in per cent, with the interval."""
     hits, n = sum(map(hit, results)), len(results)
     if n == 0:
@@ -101,6 +102,10 @@ def _numbers(results: Sequence[Result]) -> list[str]:
     ratios = [r["ratio"] for r in strong if r["ratio"] is not None]
     if ratios:
         lines.append(f"{'median held-out prediction error ratio':58s} {median(ratios):.3f}")
+    told = [r["noise_units"] for r in strong if r["noise_units"] is not None]
+    if told:
+        lines.append(f"{'median held-out error, the true model leaving about 1':58s} {median(told):.3f}")
+        lines.append(share("held-out error at most 1.3", told, lambda n: n <= 1.3))
     lines += _reliability(good)
     if good:
         times = sorted(r["seconds"] for r in good)

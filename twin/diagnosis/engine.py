@@ -19,10 +19,11 @@ from twin.diagnosis.fit import Fitted, fit
 from twin.diagnosis.following import following
 from twin.diagnosis.found import Evidence, Step
 from twin.diagnosis.hum import find
+from twin.diagnosis.misfit import error, gained
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.rivals import Standing, settle, tried
 from twin.diagnosis.run import choose, prepare
-from twin.diagnosis.search import Search, backward, calibrate, error, forward, gained, without
+from twin.diagnosis.search import Search, backward, calibrate, forward
 from twin.diagnosis.tell import tell
 from twin.diagnosis.unknown import look
 from twin.diagnosis.verdict import Verdict
@@ -31,6 +32,8 @@ from twin.plugins import every
 
 #: share by which a cause must lower the error on windows that were not fitted
 CONFIRMED = 0.01
+#: runs up to which each has all its windows, and the fewest that a run has beyond
+CAMPAIGN, FEWEST = 15, 6
 Progress = Callable[[str, float], None]
 
 
@@ -67,12 +70,13 @@ def diagnose(
     catalogue = known(good[0].setup.system, options.causes)
     considered = frozenset(c.name for c in catalogue)
     runs, limits = clipped.find([prepare(r) for r in good], considered)
-    problem = Problem(runs, choose(runs, options.windows))
+    crowd = max(1.0, len(runs) / CAMPAIGN)  # many runs have fewer windows each
+    problem = Problem(runs, choose(runs, max(FEWEST, round(options.windows / crowd))))
     if len(problem.windows) < 4:
         remedy = "Record motion that leaves the fibre taut now and then, for longer"
         raise InputError("no stretch of motion from which a window could be started", where=good[0].name, remedy=remedy)
     progress("calibrating", 0.15)
-    trained = problem.part(_searched(problem, options.searched))
+    trained = problem.part(_searched(problem, max(FEWEST // 2, round(options.searched / crowd))))
     able = [c for c in catalogue if c.how != "line" and c.name not in {limit.cause for limit in limits}]
     base = calibrate(trained)
     search = Search(trained, base, base, options.work, ladder=[base])
@@ -114,11 +118,8 @@ def judge(search: Search, held: Problem) -> bool:
     while len(held.windows) >= 4 and search.current.model.causes:
         now = fixed(held, search.current)
         idle = []
-        for cause in search.current.model.causes:
-            if cause.base is not None:
-                continue
-            alone = len(search.current.model.causes) == 1
-            thinner = search.base if alone else without(search.problem, search.current, cause)
+        judged = [c for c in search.current.model.causes if c.base is None]
+        for thinner in search.lacking(judged) if judged else []:
             gain = gained(held, fixed(held, thinner), now)
             if gain < CONFIRMED:
                 idle.append((gain, thinner))

@@ -10,14 +10,17 @@ import numpy as np
 from twin.causes._kind import Cause
 from twin.diagnosis.fit import Fitted, fit, loss, scale, slopes
 from twin.diagnosis.found import Rival
+from twin.diagnosis.misfit import error, gained, prior_price
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.score import score
-from twin.diagnosis.search import NEEDED, Search, backward, begin, error, gained, prior_price, without
+from twin.diagnosis.search import NEEDED, Search, backward, begin, hopeless, without
 
 TEMPER = 8.0
-#: squared error that may remain, in the sensors' noise, and how far causes named with so much left can be trusted: on
-#: the batteries of seeds 20261 and 20263 52 of 54 and 13 of 14 were right; with more left none of 5 on the second
-TRUST, LITTLE = ((1.15, 0.98), (2.0, 0.9)), 0.3
+#: trust in a cause beyond its rivals: at best, where nothing is left but noise; and how much it counts that something
+#: is: a cause that lowers the squared error by HALF times what it leaves is as likely wrong as right
+BEST, HALF, NOTHING = 0.98, 0.7, 0.02
+#: of what is left, the difference in squared error that tells nothing
+SHARE = 0.03
 ALIKE = 40.0
 MOST = 4
 SWAPS = 3
@@ -42,8 +45,10 @@ def standings(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
 
 def settle(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
     """Standings once no rival does better in a cause's place: one that does takes it, and what that makes needless
-    goes.
+    goes. Where nearly everything is left, rivals are not worth their refits.
     """
+    if hopeless(search):
+        return [Standing(c.name, {}, _trust(search, c), (), {}) for c in search.current.model.causes]
     for _ in range(SWAPS):
         ranks = standings(search, catalogue)
         better = [(d, r.fits[n]) for r in ranks for n, d in r.behind.items() if d < -CLEARLY]
@@ -80,11 +85,31 @@ def _standing(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> Stand
     promises = search.work.each(_instead, problem, [_place(search, cause, rival) for rival in rivals])
     fits = {rival.name: promise() for rival, promise in zip(rivals, promises, strict=True)}
     behind = {n: loss(f.residual, spread) + prior_price(f) - here for n, f in fits.items()}
-    weights = {n: float(np.exp(-max(d, 0.0) / (2 * TEMPER))) for n, d in behind.items()}
-    alike = tuple(sorted((n for n, d in behind.items() if d < ALIKE), key=lambda n: behind[n]))
-    remaining = float(error(problem, final.residual).max())
-    trust = next((share for left, share in TRUST if remaining < left), LITTLE)
-    return Standing(cause.name, behind, trust / (1.0 + sum(weights.values())), alike, fits)
+    after = float(error(problem, final.residual).max())
+    misfit = {n: (float(error(problem, f.residual).max()) - after) / _left(after) for n, f in fits.items()}
+    weights = {n: _odds(d, misfit[n]) for n, d in behind.items()}
+    alike = tuple(sorted((n for n, d in behind.items() if d < ALIKE or misfit[n] < SHARE), key=lambda n: behind[n]))
+    return Standing(cause.name, behind, _trust(search, cause) / (1.0 + sum(weights.values())), alike, fits)
+
+
+def _trust(search: Search, cause: Cause) -> float:
+    """How far a cause is to be believed, its rivals apart: what it takes away against what is left beside it."""
+    before = error(search.problem, search.lacking([cause])[0].residual)
+    after = error(search.problem, search.current.residual)
+    taken = float(np.max(before - after))
+    return BEST * max(taken, 0.0) / (max(taken, 0.0) + HALF * _left(float(after.max())))
+
+
+def _left(after: float) -> float:
+    """What is left of the squared error beyond the noise."""
+    return max(after - 1.0, NOTHING)
+
+
+def _odds(behind: float, misfit: float) -> float:
+    """A rival's against the cause in whose place it stands: by the loss, and by how little it misses more than what
+    both leave unexplained.
+    """
+    return float(max(np.exp(-max(behind, 0.0) / (2 * TEMPER)), np.exp(-max(misfit, 0.0) / SHARE)))
 
 
 def _candidates(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> list[Cause]:

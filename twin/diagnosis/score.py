@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from twin.causes._kind import Cause, Survey
+from twin.causes._kind import Cause, Survey, no_undo
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.fit import FLOOR, Fitted, Linear, reduce, scale, weigh
 from twin.diagnosis.problem import Problem
@@ -71,7 +71,7 @@ def score(problem: Problem, fitted: Fitted, causes: Iterable[Cause], linear: Lin
     def one(cause: Cause, values: Mapping[str, float]) -> tuple[float, float, Mapping[str, float]]:
         model = Composition(fitted.model.setups, (*fitted.model.causes, cause))
         z = model.put(fitted.model.carry(fitted.z, model), cause, values)
-        if cause.senses is not None and cause.before is None and cause.after is None:
+        if cause.undo is no_undo and cause.senses is not None and cause.before is None and cause.after is None:
             there = problem.sense(model, z, simulated)
         else:
             there = problem.predict(model, z, fitted.starts)

@@ -14,7 +14,8 @@ from twin.diagnosis.clipped import GUIDE_END, PASSED
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.coordinates import NO_FRICTION
 from twin.diagnosis.direct import screen
-from twin.diagnosis.fit import Fitted, Linear, carried, fit, loss, scale, slopes
+from twin.diagnosis.fit import Fitted, Linear, carried, fit, slopes
+from twin.diagnosis.misfit import error, gained, misses, ranked
 from twin.diagnosis.precision import covariance
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.score import Scored, score, survey
@@ -28,9 +29,11 @@ QUICK, LONG = 3, 12
 MOST = 4
 NEEDED = 0.012
 NOISE = 1.12
+STRONG, LEFT = 0.9, 1.04
+#: squared error in the sensors' noise that two causes of the catalogue leave only where neither is the true one
+HOPELESS = 30.0
 LARGE = 25.0
 DOUBTFUL = 1.4
-WILD = 25.0
 FEW = 2
 #: first parameters that say where an effect begins, not how large it is
 REACHED = frozenset({"level", "position", "friction"})
@@ -50,25 +53,17 @@ class Search:
     last_scores: list[Scored] = field(default_factory=list)
     refits: list[Fitted] = field(default_factory=list)
     ladder: list[Fitted] = field(default_factory=list)
+    less: dict[tuple[frozenset[str], str], Fitted] = field(default_factory=dict)
 
-
-def error(problem: Problem, left: Float, wild: float = WILD) -> Float:
-    """Squared short-window error in the sensors' noise, per channel [2]: the mean over the windows that have the
-    channel, the wildest tenth capped where it passes `wild`.
-    """
-    each, has = misses(problem, left), problem.windows.use.sum(axis=1) > 0
-    mean = np.zeros(2)
-    for c in range(2):
-        mine = each[has[:, c], c]
-        if len(mine):
-            mean[c] = np.minimum(mine, max(float(np.percentile(mine, 90)), wild)).mean()
-    return mean
-
-
-def gained(problem: Problem, before: Fitted, after: Fitted) -> float:
-    """The share by which the squared short-window error falls, in the channel where it falls most."""
-    old, new = error(problem, before.residual), error(problem, after.residual)
-    return float(np.max((old - new) / np.maximum(old, 1e-12)))
+    def lacking(self, causes: Sequence[Cause]) -> list[Fitted]:
+        """The current fit without each of these of its causes; fitted once."""
+        current, names = self.current, frozenset(c.name for c in self.current.model.causes)
+        if len(names) == 1:
+            return [self.base]
+        new = [c for c in causes if (names, c.name) not in self.less]
+        promises = self.work.each(without, self.problem, [(current, c) for c in new])
+        self.less |= {(names, c.name): promise() for c, promise in zip(new, promises, strict=True)}
+        return [self.less[names, c.name] for c in causes]
 
 
 def calibrate(problem: Problem, causes: Sequence[Cause] = (), iterations: int = 6) -> Fitted:
@@ -141,13 +136,6 @@ def telling(problem: Problem, fitted: Fitted, share: int = 2) -> Index:
     return np.union1d(worst, chosen)
 
 
-def misses(problem: Problem, left: Float) -> Float:
-    """Squared error of every window in the sensors' noise [w, 2]."""
-    squares = ((left / problem.sigma[:, None, :]) ** 2).sum(axis=1)
-    each: Float = squares / np.maximum(problem.windows.use.sum(axis=1), 1)
-    return each
-
-
 def _part(fitted: Fitted, keep: Index) -> Fitted:
     return replace(fitted, starts=fitted.starts[keep], residual=fitted.residual[keep])
 
@@ -193,25 +181,12 @@ def _behind(problem: Problem, fitted: Fitted, best: Fitted) -> bool:
     return bool(its.max() < 1.15 and mine.max() > 12.0)
 
 
-def ranked(problem: Problem, fits: Sequence[Fitted]) -> list[Fitted]:
-    """Best first, all on the scale of the one that leaves least."""
-    if not fits:
-        return []
-    spread = np.min([scale(problem, f.residual) for f in fits], axis=0)
-    return sorted(fits, key=lambda f: loss(f.residual, spread) + prior_price(f))
-
-
-def prior_price(fitted: Fitted) -> float:
-    """What priors and the number of parameters cost."""
-    priors = np.array([c.prior for c in fitted.model.coordinates])
-    free = sum(len(c.parameters) for c in fitted.model.causes)
-    return float(np.sum((fitted.z / priors) ** 2)) + 20.0 * free
-
-
 def forward(search: Search, causes: Sequence[Cause], progress: Callable[[str, float], None]) -> None:
     """Add causes while each lowers the short-window error by more than a little."""
     problem = search.problem
     for turn in range(MOST):
+        if turn >= 2 and hopeless(search):
+            break
         taken = {c.name for c in search.current.model.causes}
         progress(f"looking for {'a' if not turn else 'a further'} cause", 0.3 + 0.12 * turn)
         left, linear = [c for c in causes if c.name not in taken], slopes(problem, search.current)
@@ -220,13 +195,31 @@ def forward(search: Search, causes: Sequence[Cause], progress: Callable[[str, fl
             search.scores = scored
         search.last_scores = scored
         direct = _direct(problem, search.current, left)
-        tried = try_causes(problem, search.current, [s for s in scored if s.gain > 15.0], direct, linear, search.work)
+        tried = try_causes(problem, search.current, _offered(search, scored), direct, linear, search.work)
         search.refits += tried
         tried = [f for f in tried if sound(problem, search.current, f)]
         if not tried:
             break
         search.current = tried[0]
         search.ladder.append(tried[0])
+
+
+def hopeless(search: Search) -> bool:
+    """Whether so much is left that no cause of the catalogue can be at the bottom of it."""
+    return bool(error(search.problem, search.current.residual).max() > HOPELESS)
+
+
+def _offered(search: Search, scored: Sequence[Scored]) -> list[Scored]:
+    """Causes that first order speaks for; while something is left, besides, those that alone explained nearly all: what
+    was taken in their stead may have bent until nothing of them shows to first order.
+    """
+    offered = [s for s in scored if s.gain > 15.0]
+    if not search.refits or error(search.problem, search.current.residual).max() < LEFT:
+        return offered
+    alone = [f for f in search.refits if len(f.model.causes) == 1]
+    strong = {_last(f) for f in alone if gained(search.problem, search.base, f) > STRONG}
+    kept = offered[: SHORT_LIST - 2]
+    return kept + [s for s in scored if s.cause.name in strong and s not in kept][:2]
 
 
 def _direct(problem: Problem, fitted: Fitted, causes: Sequence[Cause]) -> list[Scored]:
@@ -279,9 +272,7 @@ def backward(search: Search) -> None:
     """Take back what a later cause made needless."""
     problem = search.problem
     while len(search.current.model.causes) > 1:
-        one_less = [(search.current, c) for c in search.current.model.causes]
-        thinner = [promise() for promise in search.work.each(without, problem, one_less)]
-        best = ranked(problem, thinner)[0]
+        best = ranked(problem, search.lacking(search.current.model.causes))[0]
         search.refits.append(best)
         if gained(problem, best, search.current) >= NEEDED:
             break

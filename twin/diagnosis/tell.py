@@ -18,11 +18,12 @@ from twin.diagnosis.fit import Fitted
 from twin.diagnosis.found import Evidence
 from twin.diagnosis.hum import Hum
 from twin.diagnosis.latent import PLACES
+from twin.diagnosis.misfit import error
 from twin.diagnosis.precision import covariance, stated
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.rivals import Standing
 from twin.diagnosis.score import Scored
-from twin.diagnosis.search import REACHED, Search, error
+from twin.diagnosis.search import REACHED, Search
 from twin.diagnosis.unknown import Unknown
 from twin.diagnosis.verdict import Verdict
 from twin.extended import to_toml

@@ -9,8 +9,9 @@ import numpy as np
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.fit import Fitted, fit, loss, scale, weigh
 from twin.diagnosis.latent import PRICE, Term, as_cause, terms
+from twin.diagnosis.misfit import error, prior_price
 from twin.diagnosis.problem import Problem
-from twin.diagnosis.search import Search, error, prior_price, without
+from twin.diagnosis.search import Search, without
 
 ENOUGH = 1.10
 SHARE = 0.10
