@@ -18,7 +18,7 @@ from mocks.plant.operator import draw_stand
 from mocks.record import record
 
 pytest.importorskip("distributed")
-HIDDEN = {"velocity-dependent-damping": {"slope": 385.0, "threshold": 0.4}}
+HIDDEN = {"fibre-viscoelasticity": {"stiffness": 8e3, "time_constant": 0.02}}  # it and its rivals have a memory
 
 
 def start(*arguments: str) -> subprocess.Popen[bytes]:
@@ -36,7 +36,7 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
             assert processes[0].poll() is None
             time.sleep(0.05)
         address = str(json.loads(file.read_text())["address"])
-        processes.append(start("worker", address, "--nthreads", "1", "--no-nanny"))
+        processes.append(start("worker", address, "--nthreads", "2", "--no-nanny"))
         yield address
     finally:
         for process in reversed(processes):
@@ -69,7 +69,7 @@ def wait_for_worker(address: str) -> None:
 def test_the_verdict_is_the_same(cluster: str, recording: Path) -> None:
     wait_for_worker(cluster)
     spread = verdict(recording, "--dask", cluster)
-    assert [c["name"] for c in spread["causes"]] == ["velocity-dependent-damping"]
+    assert "fibre-viscoelasticity" in [c["name"] for c in spread["causes"]]
     assert spread == verdict(recording)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import twin.causes
-from stand.setup import Setup, System
+from stand.setup import Setup, System, nominal
 from stand.units import parse_unit
 from twin.causes._kind import Cause
 from twin.diagnosis.composition import Composition
@@ -63,9 +63,9 @@ CAUSES = [variant for cause in every(twin.causes, Cause) for variant in cause.va
 
 
 def simulated(
-    model: Composition, z: np.ndarray, *, stroke: float = 0.02, u: float = 0.0, count: int = 500
+    model: Composition, z: np.ndarray, *, stroke: float = 0.02, u: float = 0.0, w: float = 0.0, count: int = 500
 ) -> np.ndarray:
-    """A quarter of a second of a 2 Hz motion (or another count of samples) from u, true signals."""
+    """A quarter of a second of a 2 Hz motion (or another count of samples) from u and the rim speed w, true signals."""
     dt, n = 5e-4, count + 20
     time = np.arange(n) * dt
     x = 0.5 * stroke * (1 - np.cos(4 * np.pi * time))
@@ -75,7 +75,7 @@ def simulated(
     out, status = np.empty((1, count, 5)), np.zeros(1, np.int64)
     one = np.zeros(1, np.int64)
     composed.windows(
-        np.array([[u, 0.0, 0.0, 0.0]]), np.zeros((1, 8)), constants, one, one + 2, count, drive, dt,
+        np.array([[u, 0.0, 0.0, w]]), np.zeros((1, 8)), constants, one, one + 2, count, drive, dt,
         before.address, before.p, after.address, after.p, one, out, status,
     )  # fmt: skip
     assert status[0] == 0
@@ -102,6 +102,13 @@ def test_a_cause_at_null_changes_nothing(cause: Cause) -> None:
     np.testing.assert_allclose(
         simulated(model, model.zero()), simulated(plain, plain.zero()), rtol=0, atol=1e-3
     )  # N; u is far below
+
+
+def test_a_fibre_without_a_pulley_hangs_from_an_end_that_stands() -> None:
+    model = Composition((nominal(System.WF),), ())
+    moving, standing = (simulated(model, model.zero(), stroke=0.0, u=-0.001, w=w) for w in (0.03, 0.0))
+    np.testing.assert_array_equal(moving, standing)
+    assert np.ptp(moving[0, :, 0]) > 1e-4
 
 
 def test_a_stiffer_fibre_is_stiffer_by_its_parameter() -> None:

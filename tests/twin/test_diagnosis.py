@@ -2,6 +2,8 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from stand.recording import Recording
 from stand.setup import Setup, System
 from twin.diagnosis import Options, diagnose
 from twin.diagnosis.audit import audit
+from twin.diagnosis.rivals import trust
 from twin.diagnosis.smooth import noise, smooth
 
 
@@ -49,6 +52,24 @@ def test_a_viscous_drag_is_named_with_its_size_and_the_verdict_is_json() -> None
     assert cause["parameters"]["coefficient"]["value"] == pytest.approx(15.0, rel=0.03)
     assert verdict.to_json()["gain"]["prediction_error_ratio"] < 0.3
     json.dumps(verdict.to_json(), allow_nan=False)
+
+
+@pytest.mark.parametrize(("before", "after", "low", "high"), [
+    (50.0, 1.0, 0.97, 0.99),  # all of it explained
+    (50.0, 1.9, 0.95, 0.98),  # nearly all
+    (1.40, 1.3, 0.2, 0.4),  # less taken away than left
+    (1.3, 1.3, 0.0, 0.01),
+])  # fmt: skip
+def test_a_cause_is_believed_by_what_it_takes_away_against_what_is_left(
+    before: float, after: float, low: float, high: float
+) -> None:
+    windows, samples = 20, 50
+    problem = SimpleNamespace(
+        sigma=np.ones((windows, 2)), windows=SimpleNamespace(use=np.ones((windows, samples, 2), bool))
+    )
+    without, final = (SimpleNamespace(residual=np.full((windows, samples, 2), np.sqrt(e))) for e in (before, after))
+    search: Any = SimpleNamespace(problem=problem, current=final, lacking=lambda causes: [without])
+    assert low <= trust(search, search) <= high
 
 
 def test_a_slow_recorder_is_no_fault_of_the_axis() -> None:

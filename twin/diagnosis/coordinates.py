@@ -17,6 +17,8 @@ from twin.causes._kind import Cause
 #: owners of what the setup states; all else belongs to a cause
 STATED = ("base", "run")
 WITHIN = 3.0
+#: shares of a stated base value between which a cause may free it
+LEAST, MOST = 0.1, 6.0
 TIMING = 4e-5
 OFFSET = 4e-6
 LOST_OFFSET = 6e-4
@@ -81,8 +83,13 @@ def base(
         if heavy.sigma("added_mass") > 1e-6:
             found.append(Coordinate("added_mass", "base", heavy.sigma("added_mass"), 0.0, 1.0, -WITHIN, WITHIN))
     found = [c for c in found if not named & TIMED.get(c.name, frozenset())]
-    free = {"prior": math.inf, "low": -math.inf, "high": math.inf}
-    return tuple(replace(c, **free) if c.name in freed else c for c in found)  # type: ignore[arg-type]
+    return tuple(_freed(c, getattr(setup, c.name)) if c.name in freed else c for c in found)
+
+
+def _freed(c: Coordinate, stated: float) -> Coordinate:
+    """Without a prior; no nearer to nothing than a share of what is stated, where the model would turn stiff."""
+    low, high = ((share - 1.0) * stated / c.scale if stated > 0.0 else math.inf for share in (LEAST, MOST))
+    return replace(c, prior=math.inf, low=-abs(low), high=high)
 
 
 def _sigma(setup: Setup, name: str) -> float:

@@ -39,8 +39,8 @@ Progress = Callable[[str, float], None]
 
 @dataclass(frozen=True)
 class Options:
-    """windows: per run, in all and in the search. causes: names to consider, all where empty. work: who does the
-    fits that don't hang on each other.
+    """windows: per run, in all and in the search, fewer beyond CAMPAIGN runs. causes: names to consider, all where
+    empty. work: who does the fits that don't hang on each other.
     """
 
     windows: int = 24
@@ -71,12 +71,12 @@ def diagnose(
     considered = frozenset(c.name for c in catalogue)
     runs, limits = clipped.find([prepare(r) for r in good], considered)
     crowd = max(1.0, len(runs) / CAMPAIGN)  # many runs have fewer windows each
-    problem = Problem(runs, choose(runs, max(FEWEST, round(options.windows / crowd))))
+    problem = Problem(runs, choose(runs, min(options.windows, max(FEWEST, round(options.windows / crowd)))))
     if len(problem.windows) < 4:
         remedy = "Record motion that leaves the fibre taut now and then, for longer"
         raise InputError("no stretch of motion from which a window could be started", where=good[0].name, remedy=remedy)
     progress("calibrating", 0.15)
-    trained = problem.part(_searched(problem, max(FEWEST // 2, round(options.searched / crowd))))
+    trained = problem.part(_searched(problem, min(options.searched, max(FEWEST // 2, round(options.searched / crowd)))))
     able = [c for c in catalogue if c.how != "line" and c.name not in {limit.cause for limit in limits}]
     base = calibrate(trained)
     search = Search(trained, base, base, options.work, ladder=[base])
@@ -119,7 +119,7 @@ def judge(search: Search, held: Problem) -> bool:
         now = fixed(held, search.current)
         idle = []
         judged = [c for c in search.current.model.causes if c.base is None]
-        for thinner in search.lacking(judged) if judged else []:
+        for thinner in search.lacking(judged):
             gain = gained(held, fixed(held, thinner), now)
             if gain < CONFIRMED:
                 idle.append((gain, thinner))

@@ -131,15 +131,15 @@ def _moved(starts: Float, axis: int) -> Float:
     return moved
 
 
-def carried(linear: Linear, before: Composition, model: Composition, keep: NDArray[np.intp]) -> Linear:
-    """A linearisation as one of another model on some of the windows; columns that the first has not are 0."""
+def carried(linear: Linear, before: Composition, model: Composition) -> Linear:
+    """A linearisation as one of another model; columns that the first has not are 0."""
     place = {(c.owner, c.name, c.run): i for i, c in enumerate(before.coordinates)}
-    columns = np.zeros((len(model.coordinates), len(keep), linear.residual.shape[1]))
+    columns = np.zeros((len(model.coordinates), *linear.residual.shape))
     for i, c in enumerate(model.coordinates):
         if (c.owner, c.name, c.run) in place:
-            columns[i] = linear.columns[place[c.owner, c.name, c.run]][keep]
+            columns[i] = linear.columns[place[c.owner, c.name, c.run]]
     prior = np.array([1.0 / c.prior**2 for c in model.coordinates])
-    return Linear(columns, linear.starts[:, keep], linear.residual[keep], prior, linear.root[keep])
+    return Linear(columns, linear.starts, linear.residual, prior, linear.root)
 
 
 def _globals(problem: Problem, fitted: Fitted, free: NDArray[np.bool_], column) -> Float:  # type: ignore[no-untyped-def]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -24,13 +25,20 @@ Index = NDArray[np.int64]
 FINE = 5e-4  # s between samples at which local polynomials follow any motion of a stand
 
 
+class _Kept(threading.local):
+    """What depends on few parameters only; each thread its own."""
+
+    def __init__(self) -> None:
+        self.found: dict[Any, Any] = {}
+
+
 @dataclass
 class Problem:
-    """Runs and their windows; caches what depends on few parameters only."""
+    """Runs and their windows; keeps what depends on few parameters only."""
 
     runs: tuple[Run, ...]
     windows: Windows
-    _cache: dict[Any, Any] = field(default_factory=dict)
+    _kept: _Kept = field(default_factory=_Kept)
 
     def __post_init__(self) -> None:
         self.system = self.runs[0].setup.system
@@ -45,7 +53,7 @@ class Problem:
         self.sigma = np.array([[self._sigma(r), r.noise_F] for r in self.runs])[self.windows.run]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Problem, (self.runs, self.windows)  # what is cached stays at home
+        return Problem, (self.runs, self.windows)  # what is kept stays at home
 
     def _sigma(self, run: Run) -> float:
         """One sigma of a place: the gauge's, and on an axis what the measured force's own noise adds until half-way."""
@@ -100,17 +108,21 @@ class Problem:
         rest = [(r.rest_force - undo.F_offset) / undo.F_gain for r in self.runs]
         stated = tuple(float(v) for v, c in zip(z, model.coordinates, strict=True) if c.owner in STATED)
         key = ("constants", tuple(c.name for c in model.causes), stated, tuple(rest))
-        if key not in self._cache:
+        if key not in self._kept.found:
             self._forget("constants", 4)
-            self._cache[key] = model.constants(z, rest)
-        constants: Float = self._cache[key]
+            self._kept.found[key] = model.constants(z, rest)
+        constants: Float = self._kept.found[key]
         return constants
 
-    def _forget(self, kind: str, keep: int = 0) -> None:
+    def forget_states(self) -> None:
+        """Drops the causes' own states, which hang a little on the base values at which they were had first."""
+        self._forget("own")
+
+    def _forget(self, kind: Any, keep: int = 0) -> None:
         """Drops all but the newest of what is kept of a kind."""
-        mine = [key for key in self._cache if key[0] == kind]
-        for old in mine[: len(mine) - keep]:
-            del self._cache[old]
+        mine = [key for key in self._kept.found if key[0] == kind]
+        for old in mine[: max(len(mine) - keep, 0)]:
+            del self._kept.found[old]
 
     def sense(self, model: Composition, z: Float, simulated: Float) -> Float:
         """The gauges' readings of simulated windows."""
@@ -132,28 +144,31 @@ class Problem:
         if not len(hooks.address):
             return self.drive
         key = ("drive", hooks.address.tobytes(), hooks.p.tobytes())
-        if key not in self._cache:
+        if key not in self._kept.found:
             parts = []
             for r in self.runs:
                 x, speed = r.x.value.copy(), r.x.rate.copy()
                 composed_sense.drive_end(x, speed, self.dt, hooks.address, hooks.p)
                 parts.append(np.column_stack([x, speed]))
             self._forget("drive")
-            self._cache[key] = np.ascontiguousarray(np.concatenate(parts))
-        driven: Float = self._cache[key]
+            self._kept.found[key] = np.ascontiguousarray(np.concatenate(parts))
+        driven: Float = self._kept.found[key]
         return driven
 
     def _own(self, model: Composition, z: Float, constants: Float, drive: Float, before: Hooks, after: Hooks) -> Float:
-        """The causes' own states at the starts, from their history along the measured motion."""
+        """The causes' own states at the starts, from their history along the measured motion.
+
+        Kept by the hooks' constants alone: what a small step of a base value does to a history is of second order.
+        """
         own = np.zeros((len(self.windows), k.STATES))
         if not model.own_states or self.system is System.LINEAR_DRIVE:
             return own
         key = ("own", tuple(c.name for c in model.causes), before.p.tobytes(), after.p.tobytes())
-        if key not in self._cache:
-            self._forget("own", 5)
-            self._cache[key] = own
+        if key not in self._kept.found:
             shared([partial(self._history, r, own, constants, drive, before, after) for r in range(len(self.runs))])
-        cached: Float = self._cache[key]
+            self._forget("own", 5)
+            self._kept.found[key] = own
+        cached: Float = self._kept.found[key]
         return cached
 
     def _history(self, r: int, own: Float, constants: Float, drive: Float, before: Hooks, after: Hooks) -> None:
@@ -206,17 +221,26 @@ class Problem:
         return centre
 
     def _around(self, channel: int, late: Float, lag: float) -> tuple[Float, Float]:
-        """A channel's smooth value and rate at the starts, `late` s further on and a lag undone, from a local cubic."""
-        places = np.round(late / self.dt).astype(np.int64)
-        key = ("poly", channel, places.tobytes())
-        if key not in self._cache:
-            for old in [a for a in self._cache if a[:2] == key[:2]][:-8]:
-                del self._cache[old]
-            self._cache[key] = self._fit(channel, places)
-        value, rate, second = self._cache[key]
-        rest = late - places * self.dt
-        value, rate = value + rest * rate + 0.5 * rest**2 * second, rate + rest * second
+        """A channel's smooth value and rate at the starts, `late` s further on and a lag undone: between the local
+        cubics of the two samples about that moment, so that nothing jumps where the nearer one changes.
+        """
+        places = np.floor(late / self.dt).astype(np.int64)
+        share = late / self.dt - places
+        before, after = self._cubic(channel, places), self._cubic(channel, places + 1)
+        value, rate, second = (
+            (1.0 - share) * a + share * b
+            for a, b in zip(_ahead(before, share * self.dt), _ahead(after, (share - 1.0) * self.dt), strict=True)
+        )
         return value + lag * rate, rate + lag * second
+
+    def _cubic(self, channel: int, places: Index) -> tuple[Float, Float, Float]:
+        """Value, rate and second derivative about samples `places` after the starts; kept."""
+        key = (("poly", channel), places.tobytes())
+        if key not in self._kept.found:
+            self._forget(key[0], 15)
+            self._kept.found[key] = self._fit(channel, places)
+        cubic: tuple[Float, Float, Float] = self._kept.found[key]
+        return cubic
 
     def _fit(self, channel: int, shift: Index) -> tuple[Float, Float, Float]:
         w = self.windows
@@ -244,6 +268,12 @@ class Problem:
             ),
         )  # fmt: skip
         return out, status
+
+
+def _ahead(cubic: tuple[Float, Float, Float], time: Float) -> tuple[Float, Float, Float]:
+    """What a cubic tells `time` s further on."""
+    value, rate, second = cubic
+    return value + time * rate + 0.5 * time**2 * second, rate + time * second, second
 
 
 __all__ = ["BURN", "Problem"]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from twin.causes._kind import Cause
 from twin.diagnosis.fit import Fitted, fit, loss, scale, slopes
@@ -15,6 +16,7 @@ from twin.diagnosis.problem import Problem
 from twin.diagnosis.score import score
 from twin.diagnosis.search import NEEDED, Search, backward, begin, hopeless, without
 
+Float = NDArray[np.float64]
 TEMPER = 8.0
 #: trust in a cause beyond its rivals: at best, where nothing is left but noise; and how much it counts that something
 #: is: a cause that lowers the squared error by HALF times what it leaves is as likely wrong as right
@@ -29,13 +31,16 @@ CLEARLY = 30.0
 
 @dataclass(frozen=True)
 class Standing:
-    """A cause among its rivals: loss beyond the best's by name, probability, and who can't be told from it."""
+    """A cause among its rivals: loss beyond the best's by name, probability, who can't be told from it, the rivals'
+    fits in its place, and their odds against it.
+    """
 
     name: str
     behind: Mapping[str, float]
     probability: float
     alike: tuple[str, ...]
     fits: Mapping[str, Fitted]
+    odds: Mapping[str, float] = field(default_factory=dict)
 
 
 def standings(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
@@ -48,7 +53,7 @@ def settle(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
     goes. Where nearly everything is left, rivals are not worth their refits.
     """
     if hopeless(search):
-        return [Standing(c.name, {}, _trust(search, c), (), {}) for c in search.current.model.causes]
+        return [Standing(c.name, {}, trust(search, c), (), {}) for c in search.current.model.causes]
     for _ in range(SWAPS):
         ranks = standings(search, catalogue)
         better = [(d, r.fits[n]) for r in ranks for n, d in r.behind.items() if d < -CLEARLY]
@@ -85,24 +90,25 @@ def _standing(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> Stand
     promises = search.work.each(_instead, problem, [_place(search, cause, rival) for rival in rivals])
     fits = {rival.name: promise() for rival, promise in zip(rivals, promises, strict=True)}
     behind = {n: loss(f.residual, spread) + prior_price(f) - here for n, f in fits.items()}
-    after = float(error(problem, final.residual).max())
-    misfit = {n: (float(error(problem, f.residual).max()) - after) / _left(after) for n, f in fits.items()}
-    weights = {n: _odds(d, misfit[n]) for n, d in behind.items()}
+    after = error(problem, final.residual)
+    misfit = {n: float(np.max((error(problem, f.residual) - after) / _left(after))) for n, f in fits.items()}
+    odds = {n: _odds(d, misfit[n]) for n, d in behind.items()}
     alike = tuple(sorted((n for n, d in behind.items() if d < ALIKE or misfit[n] < SHARE), key=lambda n: behind[n]))
-    return Standing(cause.name, behind, _trust(search, cause) / (1.0 + sum(weights.values())), alike, fits)
+    return Standing(cause.name, behind, trust(search, cause) / (1.0 + sum(odds.values())), alike, fits, odds)
 
 
-def _trust(search: Search, cause: Cause) -> float:
+def trust(search: Search, cause: Cause) -> float:
     """How far a cause is to be believed, its rivals apart: what it takes away against what is left beside it."""
     before = error(search.problem, search.lacking([cause])[0].residual)
     after = error(search.problem, search.current.residual)
     taken = float(np.max(before - after))
-    return BEST * max(taken, 0.0) / (max(taken, 0.0) + HALF * _left(float(after.max())))
+    return BEST * max(taken, 0.0) / (max(taken, 0.0) + HALF * float(_left(after).max()))
 
 
-def _left(after: float) -> float:
-    """What is left of the squared error beyond the noise."""
-    return max(after - 1.0, NOTHING)
+def _left(after: Float) -> Float:
+    """What is left of the squared error beyond the noise, per channel."""
+    left: Float = np.maximum(after - 1.0, NOTHING)
+    return left
 
 
 def _odds(behind: float, misfit: float) -> float:
@@ -153,9 +159,8 @@ def tried(search: Search, ranks: Sequence[Standing]) -> tuple[Rival, ...]:
     """Every cause set that was refitted in a found cause's place, most probable first, for the page."""
     told = []
     for rank in ranks:
-        for name, behind in rank.behind.items():
-            probability = rank.probability * float(np.exp(-max(behind, 0.0) / (2 * TEMPER)))
-            told.append(_rival(search, rank.fits[name], probability))
+        for name in rank.behind:
+            told.append(_rival(search, rank.fits[name], rank.probability * rank.odds[name]))
     return tuple(sorted(told, key=lambda r: -r.probability))
 
 

@@ -12,7 +12,7 @@ from stand.setup import System
 from twin.causes._kind import Cause
 from twin.diagnosis.clipped import GUIDE_END, PASSED
 from twin.diagnosis.composition import Composition
-from twin.diagnosis.coordinates import NO_FRICTION
+from twin.diagnosis.coordinates import NO_FRICTION, STATED
 from twin.diagnosis.direct import screen
 from twin.diagnosis.fit import Fitted, Linear, carried, fit, slopes
 from twin.diagnosis.misfit import error, gained, misses, ranked
@@ -30,8 +30,10 @@ MOST = 4
 NEEDED = 0.012
 NOISE = 1.12
 STRONG, LEFT = 0.9, 1.04
-#: squared error in the sensors' noise that two causes of the catalogue leave only where neither is the true one
-HOPELESS = 30.0
+#: first-order leaders that are tried before those
+ROOM = 3
+#: squared error in the sensors' noise, and share of the base's, that two causes leave only where neither is true
+HOPELESS, LITTLE = 30.0, 0.3
 LARGE = 25.0
 DOUBTFUL = 1.4
 FEW = 2
@@ -59,14 +61,14 @@ class Search:
         """The current fit without each of these of its causes; fitted once."""
         current, names = self.current, frozenset(c.name for c in self.current.model.causes)
         if len(names) == 1:
-            return [self.base]
+            return [self.base for _ in causes]
         new = [c for c in causes if (names, c.name) not in self.less]
         promises = self.work.each(without, self.problem, [(current, c) for c in new])
         self.less |= {(names, c.name): promise() for c, promise in zip(new, promises, strict=True)}
         return [self.less[names, c.name] for c in causes]
 
 
-def calibrate(problem: Problem, causes: Sequence[Cause] = (), iterations: int = 6) -> Fitted:
+def calibrate(problem: Problem, causes: Sequence[Cause] = (), iterations: int = 16) -> Fitted:
     """The base model, or one with causes from null, fitted within the priors."""
     model = Composition(tuple(r.setup for r in problem.runs), tuple(causes))
     z = model.zero()
@@ -108,7 +110,9 @@ def try_causes(
     settled: set[str] | None = None
     keep = telling(problem, fitted)
     few, part, order = problem.part(keep), _part(fitted, keep), _interleaved(scored, direct)
-    promises = work.each(_begin_fit, few, [(part, s, None if plain else (linear, keep)) for s, plain in order])
+    known = replace(linear, columns=linear.columns[:, keep], starts=linear.starts[:, keep])
+    known = replace(known, residual=linear.residual[keep], root=linear.root[keep])
+    promises = work.each(_begin_fit, few, [(part, s, None if plain else known) for s, plain in order])
     for (s, plain), promise in zip(order, promises, strict=True):
         if settled is not None and s.cause.name not in settled and (plain or s.gain < 0.5 * scored[0].gain):
             continue
@@ -155,13 +159,13 @@ def _interleaved(scored: Sequence[Scored], direct: Sequence[Scored]) -> list[tup
     return order[:10] if direct else order
 
 
-def _begin_fit(problem: Problem, fitted: Fitted, scored: Scored, known: tuple[Linear, Index] | None) -> Fitted:
+def _begin_fit(problem: Problem, fitted: Fitted, scored: Scored, known: Linear | None) -> Fitted:
     model, z = begin(fitted, scored)
     if known is not None:
-        begun = carried(known[0], fitted.model, model, known[1])
+        begun = carried(known, fitted.model, model)
         return fit(problem, model, z, fitted.starts, iterations=QUICK, known=begun)
     if not fitted.model.causes:
-        stated = np.array([c.owner in ("base", "run") for c in model.coordinates])
+        stated = np.array([c.owner in STATED for c in model.coordinates])
         z = np.where(stated, 0.0, z)
     settled = fit(problem, model, z, iterations=1, fixed=np.ones(len(z), bool))
     return fit(problem, model, z, settled.starts, iterations=QUICK + 1)
@@ -205,21 +209,23 @@ def forward(search: Search, causes: Sequence[Cause], progress: Callable[[str, fl
 
 
 def hopeless(search: Search) -> bool:
-    """Whether so much is left that no cause of the catalogue can be at the bottom of it."""
-    return bool(error(search.problem, search.current.residual).max() > HOPELESS)
+    """Whether so much is left, and so little was taken, that no cause of the catalogue can be at the bottom of it."""
+    left = float(error(search.problem, search.current.residual).max())
+    return left > max(HOPELESS, LITTLE * float(error(search.problem, search.base.residual).max()))
 
 
 def _offered(search: Search, scored: Sequence[Scored]) -> list[Scored]:
-    """Causes that first order speaks for; while something is left, besides, those that alone explained nearly all: what
-    was taken in their stead may have bent until nothing of them shows to first order.
+    """Causes that first order speaks for; while something is left, besides, those that alone explained nearly all of a
+    channel: what was taken in their stead may have bent until nothing of them shows to first order.
     """
     offered = [s for s in scored if s.gain > 15.0]
     if not search.refits or error(search.problem, search.current.residual).max() < LEFT:
         return offered
     alone = [f for f in search.refits if len(f.model.causes) == 1]
     strong = {_last(f) for f in alone if gained(search.problem, search.base, f) > STRONG}
-    kept = offered[: SHORT_LIST - 2]
-    return kept + [s for s in scored if s.cause.name in strong and s not in kept][:2]
+    again = [s for s in scored if s.cause.name in strong and s not in offered[:ROOM]][:2]
+    kept = [s for s in offered if s not in again]
+    return kept[:ROOM] + again + kept[ROOM:]
 
 
 def _direct(problem: Problem, fitted: Fitted, causes: Sequence[Cause]) -> list[Scored]:

@@ -25,9 +25,14 @@ def shared(jobs: Sequence[Callable[[], None]]) -> None:
             job()
 
     others = [_POOL.submit(take) for _ in range(min(HELPERS, len(jobs) - 1))]
-    take()
-    for other in others:
-        other.result()
+    try:
+        take()
+    finally:  # also where a job failed: nobody writes on behind its back
+        for _ in left:
+            pass
+        for other in others:
+            if not other.cancel():
+                other.result()
 
 
 def spread(n: int, samples: int, work: Callable[[int, int], None]) -> None:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any, Protocol, Self, TypeVar
 
-from stand.errors import InputError
+import twin.causes
+from stand.errors import InputError, StandError
 from twin.diagnosis.problem import Problem
+from twin.kernels.jit import cache_folder
 
 R = TypeVar("R")
 
@@ -49,15 +52,31 @@ class Dask:
             raise InputError("distributed is not installed", where="--dask", value=address, remedy=remedy) from error
         try:
             self._client = Client(address, timeout=timeout, set_as_default=False)
-            ready = len(self._client.scheduler_info(n_workers=-1)["workers"])
         except (OSError, ValueError, TypeError) as error:
             remedy = "Start one: dask scheduler, and dask worker ADDRESS on each machine"
             raise InputError("no Dask scheduler answers", where="--dask", value=address, remedy=remedy) from error
-        if not ready:
+        try:
+            self._check(address)
+        except BaseException:
             self._client.close()
+            raise
+        self._sent: dict[int, tuple[Problem, Any]] = {}
+
+    def _check(self, address: str) -> None:
+        """Whether there are workers, and all with this package as it is here."""
+        try:
+            theirs = set(self._client.run(_version).values())
+        except Exception as error:  # whatever a worker without the package makes of it
+            remedy = "Install the same version on every worker"
+            raise InputError(
+                "a Dask worker lacks this package", where="--dask", value=address, remedy=remedy
+            ) from error
+        if not theirs:
             remedy = f"Start one on each machine: dask worker {address}"
             raise InputError("the Dask cluster has no worker", where="--dask", value=address, remedy=remedy)
-        self._sent: dict[int, tuple[Problem, Any]] = {}
+        if theirs != {_version()}:
+            remedy = "Install the same version on every worker"
+            raise InputError("a Dask worker has another version", where="--dask", value=address, remedy=remedy)
 
     def each(
         self, function: Callable[..., R], problem: Problem, jobs: Sequence[tuple[Any, ...]]
@@ -65,9 +84,9 @@ class Dask:
         """All jobs are sent at once; a promise waits for its own."""
         if id(problem) not in self._sent:
             there = self._client.scatter(problem, broadcast=True, hash=False)
-            self._sent = {id(problem): (problem, there)} | dict(list(self._sent.items())[-3:])
-        there = self._sent[id(problem)][1]
-        return [self._client.submit(function, there, *job, pure=False).result for job in jobs]
+            self._sent = dict(list(self._sent.items())[-3:]) | {id(problem): (problem, there)}
+        self._sent[id(problem)] = kept = self._sent.pop(id(problem))  # the last used is dropped last
+        return [_asked(self._client.submit(_afresh, function, kept[1], job, pure=False)) for job in jobs]
 
     def __enter__(self) -> Self:
         return self
@@ -77,7 +96,30 @@ class Dask:
 
 
 def _later(function: Callable[..., R], problem: Problem, job: tuple[Any, ...]) -> Callable[[], R]:
-    return lambda: function(problem, *job)
+    return lambda: _afresh(function, problem, job)
+
+
+def _afresh(function: Callable[..., R], problem: Problem, job: tuple[Any, ...]) -> R:
+    """Do a job so that it does not hang on what was done before it, here or there."""
+    problem.forget_states()
+    return function(problem, *job)
+
+
+def _asked(future: Any) -> Callable[[], Any]:
+    def result() -> Any:
+        try:
+            return future.result()
+        except Exception as error:
+            remedy = "See the worker's log; without --dask the work is done here"
+            what = f"a fit failed on the Dask cluster: {type(error).__name__}: {error}"
+            raise StandError(what, where="--dask", remedy=remedy) from error
+
+    return result
+
+
+def _version() -> str:
+    """What this process's kernels and causes say of themselves."""
+    return cache_folder("composed").name + cache_folder("", Path(twin.causes.__file__).parent).name
 
 
 __all__ = ["Dask", "Here", "Work"]

@@ -16,7 +16,7 @@ _A = "int64[::1]"
 _HOOKS = f"{_A},{_M},{_A},{_M}"
 
 #: most that a state decays over one step of its history, and most steps a sample
-_DECAY, _PIECES = 0.7, 8
+_DECAY, _PIECES = 0.7, 40
 
 compiled = compiler("composed")
 
@@ -36,6 +36,8 @@ def windows(starts, own, constants, run, first, length, drive, dt, before, bp, a
         begin(q, c)
         y[:4] = starts[j]
         y[4:DV] = own[j]
+        if c[k.K_SYSTEM] != k.WFPD:
+            y[3] = 0.0  # no pulley: the fibre's end stands
         q[k.XDD] = (drive[at + 1, 1] - drive[at, 1]) / dt
         mode[0] = mode[1] = 1
         on1, on2 = settle(y, q, c, drive[at, 0], drive[at, 1], time, before, bp, after, ap, mode)
@@ -71,6 +73,9 @@ def history(path, drive, c, own, dt, before, bp, after, ap, out):
     state, slope = own[0].copy(), np.zeros(k.STATES)
     least = 1 if dt < 0.6e-3 else 2
     begin(q, c)
+    y[:4] = path[0]
+    y[4:] = state
+    evaluate(y[0], y[1], y[2], y[3], drive[0, 0], drive[0, 1], 0.0, y, q, c, before, bp, after, ap, True, True)
     for i in range(n):
         out[i] = state
         if i == n - 1:
@@ -105,6 +110,8 @@ def carry(y, c, drive, start, dt, before, bp, after, ap, mode, out):
     n, status = len(drive) - 1, 0
     begin(q, c)
     full[:DV] = y
+    if c[k.K_SYSTEM] != k.WFPD:
+        full[3] = 0.0
     q[k.XDD] = (drive[1, 1] - drive[0, 1]) / dt
     settle(full, q, c, drive[0, 0], drive[0, 1], start, before, bp, after, ap, mode)
     for i in range(n):

@@ -1,8 +1,9 @@
 """Places in the composed stepper's work vector `q`; a cause's hooks read and write them by these names.
 
-Written afresh in every evaluation, in this order: time, state and drive; strand constants; elongations; then the hooks
-`before` (they may change constants, elongations, extra tensions); tensions; then the hooks `after` (they add forces on
-the weight and on the rim, and the rates of the causes' own states).
+Where there are hooks, written afresh in every evaluation, in this order: constants; time, state and drive; elongations;
+then the hooks `before` (they may change constants, elongations, extra tensions); tensions, and with them whether a
+strand is taut; then the hooks `after` (they add forces on the weight and on the rim, and the rates of the causes' own
+states).
 """
 
 from typing import Final

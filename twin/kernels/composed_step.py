@@ -93,8 +93,8 @@ def _pieces(v, q, c, rate):
 def _located(y, q, c, row, start, done, theta, dt, before, bp, after, ap, mode, out):
     """The step shortened to the first switch of a strand, out and the modes after it."""
     pulley = c[k.K_SYSTEM] == k.WFPD
-    low, high, at = 0.0, theta, theta
-    on1, on2 = mode[0] == 0, mode[1] == 0
+    low, high, at = 0.0, theta, -1.0
+    on1, on2 = True, True
     for _ in range(1, _LOCATE):
         if high - low < 1e-5 * theta + 1e-9:
             break
@@ -104,7 +104,7 @@ def _located(y, q, c, row, start, done, theta, dt, before, bp, after, ap, mode, 
             high = at
         else:
             low = at
-    if at != high or high == theta:
+    if at != high:
         on1, on2 = _step(y, q, c, row, start, done, high, dt, before, bp, after, ap, mode, out)
     mode[0] = 1 if on1 else 0
     mode[1] = 1 if on2 else 0
