@@ -19,13 +19,17 @@ def _slide(q, p):  # type: ignore[no-untyped-def]
     q[k.D2] -= q[k.AUX + own]
     t1 = q[k.C1] * q[k.D1] + q[k.B1] * q[k.DD1] + q[k.E1]
     t2 = q[k.C2] * q[k.D2] + q[k.B2] * q[k.DD2] + q[k.E2]
-    t1 = t1 if q[k.D1] > 0.0 and t1 > 0.0 else 0.0
-    t2 = t2 if q[k.D2] > 0.0 and t2 > 0.0 else 0.0
-    slide = 0.0
-    if t2 > hold * t1:
-        slide = (t2 - hold * t1) / (q[k.B2] + (hold * q[k.B1] if t1 > 0.0 else 0.0))
-    elif t1 > hold * t2:
-        slide = -(t1 - hold * t2) / (q[k.B1] + (hold * q[k.B2] if t2 > 0.0 else 0.0))
+    pull1 = t1 if q[k.D1] > 0.0 and t1 > 0.0 else 0.0
+    pull2 = t2 if q[k.D2] > 0.0 and t2 > 0.0 else 0.0
+    slide = 0.0  # what brings the tensions back to the ratio; no strand is let down further than to nothing
+    if pull2 > hold * pull1:
+        slide = pull2 / q[k.B2]
+        if q[k.D1] > 0.0:
+            slide = min(slide, (t2 - hold * t1) / (q[k.B2] + hold * q[k.B1]))
+    elif pull1 > hold * pull2:
+        slide = -pull1 / q[k.B1]
+        if q[k.D2] > 0.0:
+            slide = max(slide, (hold * t2 - t1) / (q[k.B1] + hold * q[k.B2]))
     q[k.DD1] += slide
     q[k.DD2] -= slide
     q[k.RATE + own] = slide

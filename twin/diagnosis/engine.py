@@ -32,6 +32,8 @@ from twin.plugins import every
 
 #: share by which a cause must lower the error on windows that were not fitted
 CONFIRMED = 0.01
+#: probability below which a cause, its rivals counted in, is not named
+NAMED = 0.1
 #: runs up to which each has all its windows, and the fewest that a run has beyond
 CAMPAIGN, FEWEST = 15, 6
 Progress = Callable[[str, float], None]
@@ -86,6 +88,8 @@ def diagnose(
     ranks = settle(search, able)
     if judge(search, problem.part(problem.windows.held)):
         ranks = settle(search, able)
+    if doubt(search, ranks):
+        ranks = settle(search, able)
     progress("looking beyond the catalogue", 0.82)
     beyond = look(search)
     if beyond is not None and beyond.learned:
@@ -131,6 +135,18 @@ def judge(search: Search, held: Problem) -> bool:
             search.ladder.append(search.current)
         gone = True
     return gone
+
+
+def doubt(search: Search, ranks: Sequence[Standing]) -> bool:
+    """Take back the causes that are hardly to be believed, the least first; whether one went."""
+    weak = sorted((r for r in ranks if r.probability * (1 + len(r.alike)) < NAMED), key=lambda r: r.probability)
+    for rank in weak:
+        cause = next(c for c in search.current.model.causes if c.name == rank.name)
+        search.current = search.lacking([cause])[0]
+        search.ladder = [f for f in search.ladder if _part_of(f, search.current)]
+        if search.ladder[-1].model.causes != search.current.model.causes:
+            search.ladder.append(search.current)
+    return bool(weak)
 
 
 def _add(search: Search, limit: clipped.Clip, catalogue: Sequence[Cause]) -> None:

@@ -15,6 +15,8 @@ Float = NDArray[np.float64]
 LOWEST, HIGHEST = 35.0, 420.0
 SURE = 45.0
 REST = 0.9
+#: how much wider a channel may range in the last rest than in the first: a weight that still swings drowns a line
+CALM = 2.0
 #: reach and step, Hz, of each closer look: both rests together know a line to a small part of 1/their distance
 ZOOM = (0.8, 0.01), (0.012, 0.0004)
 SIGNALS = ("fibre_force", "weight_position", "drive_position")
@@ -65,15 +67,15 @@ def _answers(line: Hum, other: Hum) -> bool:
 
 
 def _rest(recording: Recording, tail: bool = True) -> NDArray[np.bool_]:
-    """The rest at both ends, or the one before any motion alone."""
+    """The rest at both ends, or the one before any motion alone, also where the stand has not come to rest again."""
     n, count = len(recording.time), round(REST / recording.dt)
     mask = np.zeros(n, bool)
     mask[:count] = True
     if not tail:
         return mask
-    quiet = recording.channels["drive_position"] if "drive_position" in recording.channels else recording.time * 0
-    if np.ptp(quiet[-count // 2 :]) < 1e-3:
-        mask[-count // 2 :] = True
+    last = count // 2
+    if all(np.ptp(v[-last:]) < CALM * np.ptp(v[:count]) for v in recording.channels.values()):
+        mask[-last:] = True
     return mask
 
 

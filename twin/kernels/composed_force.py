@@ -9,6 +9,9 @@ from twin.kernels import composed_slots as k
 from twin.kernels.composed_call import call_dynamics
 from twin.kernels.jit import part
 
+#: N of pull at which a strand that slides on the rim, held by nothing, still counts as taut
+NAUGHT = 1e-6
+
 
 @part
 def begin(q, c):
@@ -58,7 +61,7 @@ def evaluate(u, v, s, w, x, xd, time, own, q, c, before, bp, after, ap, taut1, t
         t2 = t1
     elif system == k.AXIS:
         t1 = t2 = x
-    on1, on2 = d1 > 0.0 and pull1 > 0.0, d2 > 0.0 and pull2 > 0.0
+    on1, on2 = d1 > 0.0 and pull1 > -NAUGHT, d2 > 0.0 and pull2 > -NAUGHT
     if not hooked:
         weight = t1 - c[k.K_WEIGHT] - c[k.K_FC] * smooth
         if system == k.WFPD:
