@@ -111,6 +111,16 @@ def test_a_fibre_without_a_pulley_hangs_from_an_end_that_stands() -> None:
     assert np.ptp(moving[0, :, 0]) > 1e-4
 
 
+@pytest.mark.parametrize("friction", [0.1, 0.4, 1.0])
+def test_a_fibre_that_slides_when_it_is_caught_does_not_drive_the_rim_away(friction: float) -> None:
+    cause = load(twin.causes, "fibre-pulley-slip", Cause)
+    model, plain = Composition((Setup(),), (cause,)), Composition((Setup(),), ())
+    z = model.put(model.zero(), cause, {"friction": friction})
+    dropped, held = (simulated(m, y, stroke=0.0, u=0.004, count=400)[0] for m, y in ((model, z), (plain, plain.zero())))
+    assert np.abs(dropped[:, 4]).max() < 0.004  # m of rim
+    assert dropped[:, 2].max() == pytest.approx(held[:, 2].max(), rel=0.1)
+
+
 def test_a_stiffer_fibre_is_stiffer_by_its_parameter() -> None:
     cause = load(twin.causes, "fibre-stiffness", Cause)
     model = Composition((Setup(),), (cause,))
