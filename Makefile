@@ -9,7 +9,7 @@ COUNT ?= 20
 OUT ?= build/blind
 export NUMBA_CACHE_DIR ?= $(CURDIR)/build/numba
 
-.PHONY: help install demo test quick lint browser slow soak kills trips align bench blind
+.PHONY: help install kernels demo test quick lint browser slow soak kills trips align bench blind
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1 \t/' | expand -t 18
@@ -30,7 +30,14 @@ test: install lint quick ## lint, types, import contracts and the quick tests
 # what moves on wires in real time goes after the rest and alone: two at once would measure each other
 WIRES := tests/loop tests/stand/test_profiles.py tests/api/test_server.py tests/api/test_access.py tests/api/test_next.py
 
-quick: install
+# compiled once, half by half: the tests' two processes would each compile them all for themselves
+KERNELS_1 := composed composed_sense composed_latent force force_batch running
+KERNELS_2 := fibre_chain fibre_ancf fibre_segment fibre_ritz
+
+kernels: install
+	$(BIN)/python -c "$(KERNELS_1:%=import twin.kernels.%;)" & $(BIN)/python -c "$(KERNELS_2:%=import twin.kernels.%;)" && wait
+
+quick: kernels
 	$(BIN)/python -m pytest -n 2 $(WIRES:%=--ignore=%)
 	$(BIN)/python -m pytest $(WIRES)
 

@@ -66,6 +66,7 @@ def wait_for_worker(address: str) -> None:
         client.wait_for_workers(1, timeout=30)
 
 
+@pytest.mark.slow
 def test_the_verdict_is_the_same(cluster: str, recording: Path) -> None:
     wait_for_worker(cluster)
     spread = verdict(recording, "--dask", cluster)

@@ -44,7 +44,7 @@ class Dask:
     InputError where `distributed` is not installed or nothing answers there.
     """
 
-    def __init__(self, address: str, timeout: float = 10.0) -> None:
+    def __init__(self, address: str, timeout: float = 4.0) -> None:
         try:
             from distributed import Client
         except ImportError as error:
