@@ -9,7 +9,7 @@ COUNT ?= 20
 OUT ?= build/blind
 export NUMBA_CACHE_DIR ?= $(CURDIR)/build/numba
 
-.PHONY: help install kernels demo test quick lint browser slow soak kills trips align bench blind
+.PHONY: help install kernels demo test quick lint browser dask slow soak kills trips align bench blind
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1 \t/' | expand -t 18
@@ -49,6 +49,9 @@ lint: install
 
 browser: install ## the page in a real browser (needs Chromium)
 	$(BIN)/python -m pytest -m browser tests/api
+
+dask: install ## a diagnosis on a Dask cluster of real processes
+	$(BIN)/python -m pytest -m slow tests/api/test_dask.py
 
 slow: install ## the long checks of models and time base
 	$(BIN)/python -m pytest -m slow -n 2 --timeout 1200
