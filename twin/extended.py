@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 import twin.causes
 from stand.errors import InputError
 from stand.setup import Setup, System
-from twin.causes._kind import Cause
+from twin.causes._kind import Cause, named
 from twin.model import FibreModel, Start
 from twin.parameter import Parameter, Source
-from twin.plugins import load, names
+from twin.plugins import names
 
 Float = NDArray[np.float64]
 HISTORY = 1024  # samples of drive and of gauge signals that delays and lags look back on
@@ -77,11 +77,9 @@ def _read(path: Path) -> dict[str, Any]:
 
 
 def _cause(name: str, path: Path | str) -> Cause:
-    plain = name.split("/")[0]
-    if plain not in names(twin.causes):
+    if name.split("/")[0] not in names(twin.causes):
         raise InputError("no cause of that name", where=str(path), value=name, remedy="See `stand causes`")
-    cause = load(twin.causes, plain, Cause)
-    return next((v for v in cause.variants if v.name == name), cause)
+    return named(name)
 
 
 @dataclass(frozen=True)

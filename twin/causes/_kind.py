@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 from numba import cfunc
@@ -12,7 +11,7 @@ from numba import cfunc
 from stand.setup import Setup, System
 from twin.kernels.composed_call import DYNAMICS, INPUT, SENSOR
 from twin.parameter import Parameter, Source
-from twin.plugins import every
+from twin.plugins import load
 
 Values = Mapping[str, float]
 dynamics = cfunc(DYNAMICS, cache=True)
@@ -139,13 +138,9 @@ def grid(null: Values, **axes: Sequence[float]) -> list[dict[str, float]]:
     return points
 
 
-@cache
-def _by_name() -> dict[str, Cause]:
+def named(name: str) -> Cause:
+    """The catalogue's cause, or one of the variants, of that name; InputError where there is none."""
     import twin.causes
 
-    return {c.name: c for cause in every(twin.causes, Cause) for c in (cause, *cause.variants)}
-
-
-def named(name: str) -> Cause:
-    """The catalogue's cause, or one of the variants, of that name."""
-    return _by_name()[name]
+    cause = load(twin.causes, name.split("/")[0], Cause)
+    return next((v for v in cause.variants if v.name == name), cause)

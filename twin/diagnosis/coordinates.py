@@ -88,8 +88,10 @@ def base(
 
 def _freed(c: Coordinate, stated: float) -> Coordinate:
     """Without a prior; no nearer to nothing than a share of what is stated, where the model would turn stiff."""
-    low, high = ((share - 1.0) * stated / c.scale if stated > 0.0 else math.inf for share in (LEAST, MOST))
-    return replace(c, prior=math.inf, low=-abs(low), high=high)
+    if stated <= 0.0:
+        return replace(c, prior=math.inf, low=-math.inf, high=math.inf)
+    low, high = ((share - 1.0) * stated / c.scale for share in (LEAST, MOST))
+    return replace(c, prior=math.inf, low=low, high=high)
 
 
 def _sigma(setup: Setup, name: str) -> float:

@@ -72,13 +72,12 @@ def diagnose(
     catalogue = known(good[0].setup.system, options.causes)
     considered = frozenset(c.name for c in catalogue)
     runs, limits = clipped.find([prepare(r) for r in good], considered)
-    crowd = max(1.0, len(runs) / CAMPAIGN)  # many runs have fewer windows each
-    problem = Problem(runs, choose(runs, min(options.windows, max(FEWEST, round(options.windows / crowd)))))
+    problem = Problem(runs, choose(runs, _each(options.windows, len(runs), FEWEST)))
     if len(problem.windows) < 4:
         remedy = "Record motion that leaves the fibre taut now and then, for longer"
         raise InputError("no stretch of motion from which a window could be started", where=good[0].name, remedy=remedy)
     progress("calibrating", 0.15)
-    trained = problem.part(_searched(problem, min(options.searched, max(FEWEST // 2, round(options.searched / crowd)))))
+    trained = problem.part(_searched(problem, _each(options.searched, len(runs), FEWEST // 2)))
     able = [c for c in catalogue if c.how != "line" and c.name not in {limit.cause for limit in limits}]
     base = calibrate(trained)
     search = Search(trained, base, base, options.work, ladder=[base])
@@ -129,10 +128,7 @@ def judge(search: Search, held: Problem) -> bool:
                 idle.append((gain, thinner))
         if not idle:
             return gone
-        search.current = min(idle, key=lambda pair: pair[0])[1]
-        search.ladder = [f for f in search.ladder if _part_of(f, search.current)]
-        if search.ladder[-1].model.causes != search.current.model.causes:
-            search.ladder.append(search.current)
+        _step_back(search, min(idle, key=lambda pair: pair[0])[1])
         gone = True
     return gone
 
@@ -142,11 +138,16 @@ def doubt(search: Search, ranks: Sequence[Standing]) -> bool:
     weak = sorted((r for r in ranks if r.probability * (1 + len(r.alike)) < NAMED), key=lambda r: r.probability)
     for rank in weak:
         cause = next(c for c in search.current.model.causes if c.name == rank.name)
-        search.current = search.lacking([cause])[0]
-        search.ladder = [f for f in search.ladder if _part_of(f, search.current)]
-        if search.ladder[-1].model.causes != search.current.model.causes:
-            search.ladder.append(search.current)
+        _step_back(search, search.lacking([cause])[0])
     return bool(weak)
+
+
+def _step_back(search: Search, thinner: Fitted) -> None:
+    """Go on with fewer causes; rungs with others go."""
+    search.current = thinner
+    search.ladder = [f for f in search.ladder if _part_of(f, thinner)]
+    if search.ladder[-1].model.causes != thinner.model.causes:
+        search.ladder.append(thinner)
 
 
 def _add(search: Search, limit: clipped.Clip, catalogue: Sequence[Cause]) -> None:
@@ -170,6 +171,11 @@ def known(system: System, only: Sequence[str] = ()) -> list[Cause]:
     for cause in every(twin.causes, Cause):
         found += [c for c in cause.variants or (cause,) if system in c.systems and (not only or cause.name in only)]
     return found
+
+
+def _each(windows: int, runs: int, least: int) -> int:
+    """How many windows each of many runs has: fewer beyond CAMPAIGN of them."""
+    return min(windows, max(least, round(windows * min(1.0, CAMPAIGN / runs))))
 
 
 def _searched(problem: Problem, per_run: int) -> np.ndarray:  # type: ignore[type-arg]

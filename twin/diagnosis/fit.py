@@ -45,6 +45,10 @@ class Linear:
     prior: Float
     root: Float
 
+    def part(self, keep: NDArray[np.intp]) -> Linear:
+        """The same on some of the windows."""
+        return Linear(self.columns[:, keep], self.starts[:, keep], self.residual[keep], self.prior, self.root[keep])
+
 
 def residual(problem: Problem, model: Composition, z: Float, starts: Float) -> Float:
     """Data minus prediction, zero where a sample doesn't count; 1e3 sigma at most."""

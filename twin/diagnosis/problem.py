@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from stand.setup import System
 from twin.causes._kind import Undo
 from twin.diagnosis.composition import Composition, Hooks
 from twin.diagnosis.coordinates import STATED
-from twin.diagnosis.run import BURN, LENGTH, Run, Windows, half
+from twin.diagnosis.run import LENGTH, Run, Windows, half
 from twin.diagnosis.shared import shared, spread
 from twin.diagnosis.smooth import curvature, gains, polynomial
 from twin.kernels import composed, composed_sense
@@ -22,6 +23,7 @@ from twin.kernels import composed_slots as k
 
 Float = NDArray[np.float64]
 Index = NDArray[np.int64]
+T = TypeVar("T")
 FINE = 5e-4  # s between samples at which local polynomials follow any motion of a stand
 
 
@@ -108,20 +110,25 @@ class Problem:
         rest = [(r.rest_force - undo.F_offset) / undo.F_gain for r in self.runs]
         stated = tuple(float(v) for v, c in zip(z, model.coordinates, strict=True) if c.owner in STATED)
         key = ("constants", tuple(c.name for c in model.causes), stated, tuple(rest))
-        if key not in self._kept.found:
-            self._forget("constants", 4)
-            self._kept.found[key] = model.constants(z, rest)
-        constants: Float = self._kept.found[key]
-        return constants
+        return self._keep(key, 5, lambda: model.constants(z, rest))
 
     def forget_states(self) -> None:
         """Drops the causes' own states, which hang a little on the base values at which they were had first."""
-        self._forget("own")
+        self._forget("own", 0)
 
-    def _forget(self, kind: Any, keep: int = 0) -> None:
-        """Drops all but the newest of what is kept of a kind."""
+    def _keep(self, key: tuple[Any, ...], most: int, make: Callable[[], T]) -> T:
+        """What `make` makes, made once; of each kind, which the key begins with, only the newest are kept."""
+        if key not in self._kept.found:
+            made = make()
+            self._forget(key[0], most - 1)
+            self._kept.found[key] = made
+        kept: T = self._kept.found[key]
+        return kept
+
+    def _forget(self, kind: str, most: int) -> None:
+        """Drops all but the newest of a kind."""
         mine = [key for key in self._kept.found if key[0] == kind]
-        for old in mine[: max(len(mine) - keep, 0)]:
+        for old in mine[: max(len(mine) - most, 0)]:
             del self._kept.found[old]
 
     def sense(self, model: Composition, z: Float, simulated: Float) -> Float:
@@ -144,16 +151,15 @@ class Problem:
         if not len(hooks.address):
             return self.drive
         key = ("drive", hooks.address.tobytes(), hooks.p.tobytes())
-        if key not in self._kept.found:
-            parts = []
-            for r in self.runs:
-                x, speed = r.x.value.copy(), r.x.rate.copy()
-                composed_sense.drive_end(x, speed, self.dt, hooks.address, hooks.p)
-                parts.append(np.column_stack([x, speed]))
-            self._forget("drive")
-            self._kept.found[key] = np.ascontiguousarray(np.concatenate(parts))
-        driven: Float = self._kept.found[key]
-        return driven
+        return self._keep(key, 1, lambda: self._moved(hooks))
+
+    def _moved(self, hooks: Hooks) -> Float:
+        parts = []
+        for r in self.runs:
+            x, speed = r.x.value.copy(), r.x.rate.copy()
+            composed_sense.drive_end(x, speed, self.dt, hooks.address, hooks.p)
+            parts.append(np.column_stack([x, speed]))
+        return np.ascontiguousarray(np.concatenate(parts))
 
     def _own(self, model: Composition, z: Float, constants: Float, drive: Float, before: Hooks, after: Hooks) -> Float:
         """The causes' own states at the starts, from their history along the measured motion.
@@ -163,13 +169,12 @@ class Problem:
         own = np.zeros((len(self.windows), k.STATES))
         if not model.own_states or self.system is System.LINEAR_DRIVE:
             return own
-        key = ("own", tuple(c.name for c in model.causes), before.p.tobytes(), after.p.tobytes())
-        if key not in self._kept.found:
+
+        def fill() -> Float:
             shared([partial(self._history, r, own, constants, drive, before, after) for r in range(len(self.runs))])
-            self._forget("own", 5)
-            self._kept.found[key] = own
-        cached: Float = self._kept.found[key]
-        return cached
+            return own
+
+        return self._keep(("own", tuple(c.name for c in model.causes), before.p.tobytes(), after.p.tobytes()), 6, fill)
 
     def _history(self, r: int, own: Float, constants: Float, drive: Float, before: Hooks, after: Hooks) -> None:
         run, mine = self.runs[r], self.windows.run == r
@@ -235,12 +240,7 @@ class Problem:
 
     def _cubic(self, channel: int, places: Index) -> tuple[Float, Float, Float]:
         """Value, rate and second derivative about samples `places` after the starts; kept."""
-        key = (("poly", channel), places.tobytes())
-        if key not in self._kept.found:
-            self._forget(key[0], 15)
-            self._kept.found[key] = self._fit(channel, places)
-        cubic: tuple[Float, Float, Float] = self._kept.found[key]
-        return cubic
+        return self._keep((f"cubic {channel}", places.tobytes()), 16, lambda: self._fit(channel, places))
 
     def _fit(self, channel: int, shift: Index) -> tuple[Float, Float, Float]:
         w = self.windows
@@ -276,4 +276,4 @@ def _ahead(cubic: tuple[Float, Float, Float], time: Float) -> tuple[Float, Float
     return value + time * rate + 0.5 * time**2 * second, rate + time * second, second
 
 
-__all__ = ["BURN", "Problem"]
+__all__ = ["Problem"]

@@ -159,8 +159,8 @@ def tried(search: Search, ranks: Sequence[Standing]) -> tuple[Rival, ...]:
     """Every cause set that was refitted in a found cause's place, most probable first, for the page."""
     told = []
     for rank in ranks:
-        for name in rank.behind:
-            told.append(_rival(search, rank.fits[name], rank.probability * rank.odds[name]))
+        for name, odds in rank.odds.items():
+            told.append(_rival(search, rank.fits[name], rank.probability * odds))
     return tuple(sorted(told, key=lambda r: -r.probability))
 
 

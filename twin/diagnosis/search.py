@@ -110,8 +110,7 @@ def try_causes(
     settled: set[str] | None = None
     keep = telling(problem, fitted)
     few, part, order = problem.part(keep), _part(fitted, keep), _interleaved(scored, direct)
-    known = replace(linear, columns=linear.columns[:, keep], starts=linear.starts[:, keep])
-    known = replace(known, residual=linear.residual[keep], root=linear.root[keep])
+    known = linear.part(keep)
     promises = work.each(_begin_fit, few, [(part, s, None if plain else known) for s, plain in order])
     for (s, plain), promise in zip(order, promises, strict=True):
         if settled is not None and s.cause.name not in settled and (plain or s.gain < 0.5 * scored[0].gain):

@@ -21,15 +21,17 @@ def shared(jobs: Sequence[Callable[[], None]]) -> None:
     left = iter(jobs)  # a list's iterator hands each item to one thread only
 
     def take() -> None:
-        for job in left:
-            job()
+        try:
+            for job in left:
+                job()
+        finally:  # where a job failed, the others are left undone, whoever was to do them
+            for _ in left:
+                pass
 
     others = [_POOL.submit(take) for _ in range(min(HELPERS, len(jobs) - 1))]
     try:
         take()
-    finally:  # also where a job failed: nobody writes on behind its back
-        for _ in left:
-            pass
+    finally:  # also then nobody writes on behind the caller's back
         for other in others:
             if not other.cancel():
                 other.result()

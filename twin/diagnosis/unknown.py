@@ -11,7 +11,7 @@ from twin.diagnosis.fit import Fitted, fit, loss, scale, weigh
 from twin.diagnosis.latent import PRICE, Term, as_cause, terms
 from twin.diagnosis.misfit import error, prior_price
 from twin.diagnosis.problem import Problem
-from twin.diagnosis.search import Search, without
+from twin.diagnosis.search import Search
 
 ENOUGH = 1.10
 SHARE = 0.10
@@ -111,4 +111,4 @@ def _better(problem: Problem, alone: Unknown, catalogue: Fitted) -> bool:
     return mine < loss(catalogue.residual, spread) + prior_price(catalogue)
 
 
-__all__ = ["Unknown", "look", "without"]
+__all__ = ["Unknown", "look"]

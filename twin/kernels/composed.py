@@ -69,13 +69,13 @@ def history(path, drive, c, own, dt, before, bp, after, ap, out):
     Tensions are what the strands give on that path.
     """
     n, count = len(path), int(c[k.K_OWN])
-    y, q = np.zeros(4 + k.STATES), np.zeros(k.SIZE)
+    y, q, mode = np.zeros(FULL), np.zeros(k.SIZE), np.ones(2, np.int64)
     state, slope = own[0].copy(), np.zeros(k.STATES)
     least = 1 if dt < 0.6e-3 else 2
     begin(q, c)
     y[:4] = path[0]
-    y[4:] = state
-    evaluate(y[0], y[1], y[2], y[3], drive[0, 0], drive[0, 1], 0.0, y, q, c, before, bp, after, ap, True, True)
+    y[4:DV] = state
+    settle(y, q, c, drive[0, 0], drive[0, 1], 0.0, before, bp, after, ap, mode)
     for i in range(n):
         out[i] = state
         if i == n - 1:
