@@ -1,8 +1,8 @@
 """How quickly a host on the same machine hears: `python -m mocks.devices.latency HOST PORT UNIT` or `... TERMINAL`.
 
-A host puts the drive's look at itself in the middle between its request and the answer. What the two legs differ by
-is the link's fixed latency: half of it is how much too late the samples then seem. A serial port's bytes pass through
-the system, too, before a host has them.
+A host puts the drive's look at itself in the middle between its request and the answer's coming in, which the kernel
+notes. What the two legs differ by is the link's fixed latency: half of it is how much too late the samples then seem.
+A serial port's bytes pass through the system, too, before a host has them.
 """
 
 from __future__ import annotations
@@ -23,6 +23,8 @@ from dataclasses import dataclass
 from mocks.wire.terminal import Terminal
 
 TRIES, PAUSE, QUICK = 150, 7e-4, 0.3
+#: Linux's option to note when a packet came (SO_TIMESTAMPNS)
+STAMPS = 35
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,15 +84,25 @@ def ask(host: str, port: int, unit: int) -> list[tuple[float, float]]:
     found = []
     with socket.create_connection((host, port), timeout=5.0) as link:
         link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        link.setsockopt(socket.SOL_SOCKET, STAMPS, 1)
         for _ in range(TRIES):
             time.sleep(PAUSE)
             asked = time.monotonic()
             link.sendall(request)
             size = 0
             while size < 9 + 128:
-                size += len(link.recv(512))
-            found.append((asked, time.monotonic()))
+                data, notes, _, _ = link.recvmsg(512, 64)
+                heard = time.monotonic() - since(notes)
+                size += len(data)
+            found.append((asked, heard))
     return found
+
+
+def since(notes: Sequence[tuple[int, int, bytes]]) -> float:
+    """How long ago the network had the bytes that came with these notes, s; 0 where no note tells."""
+    now = time.time()
+    stamps = [struct.unpack_from("@ll", data) for _, kind, data in notes if kind == STAMPS]
+    return max(0.0, now - stamps[0][0] - stamps[0][1] * 1e-9) if stamps else 0.0
 
 
 def main(arguments: Sequence[str]) -> None:

@@ -13,8 +13,6 @@ from stand.clock.model import Clock
 
 #: crystals keep to this (relative); a slower or faster clock is believed where the reads leave no other
 TOLERANCE, WIDE = 55e-6, 2e-3
-#: ticks that leave more than this share of a frame period open are no better than the earliest arrivals
-VAGUE = 0.15
 #: a gap's place is sure to this many seconds
 DOUBT = 0.06
 
@@ -78,7 +76,7 @@ def _line(bounds: Bounds, period: float) -> tuple[Line, str, float | None]:
             room = lacking + fuzz
             found = mean_between(points[0], points[1] - room, points[2], points[3] + room, period, spread)
             sigma = float(np.hypot(found[1], fuzz + bounds.doubt)) if found is not None else np.inf
-            if found is not None and sigma < VAGUE * period:
+            if found is not None:  # a timer that keeps step with the frames leaves much open, and sigma says so
                 return found[0], "ticks", sigma
     return line_below(bounds.early, bounds.before, period), "envelope", None
 

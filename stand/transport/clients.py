@@ -11,10 +11,12 @@ from typing import Protocol
 
 import serial
 from pymodbus.client import ModbusSerialClient, ModbusTcpClient
+from pymodbus.exceptions import ConnectionException
 from pymodbus.framer import FramerBase
 from pymodbus.pdu import ModbusPDU
 
 from stand.config import RtuLink, TcpLink
+from stand.transport.heard import ROOM, age, ask_for_stamps
 from stand.transport.modbus import ObjectAnswer
 
 Trace = Callable[[bool, bytes], bytes]
@@ -24,6 +26,7 @@ class Client(Protocol):
     """What a link needs of either."""
 
     framer: FramerBase
+    late: float
 
     def connect(self) -> bool: ...
     def close(self) -> None: ...
@@ -35,7 +38,9 @@ logging.getLogger("pymodbus").addHandler(logging.NullHandler())
 
 
 class PromptTcp(ModbusTcpClient):
-    """Connecting raises OSError with its reason."""
+    """Connecting raises OSError with its reason. late: how long before the last read the host had the bytes, s."""
+
+    late = 0.0
 
     def connect(self) -> bool:
         """Connect, unless connected."""
@@ -43,11 +48,26 @@ class PromptTcp(ModbusTcpClient):
             address, timeout = (self.comm_params.host, self.comm_params.port), self.comm_params.timeout_connect
             self.socket = socket.create_connection(address, timeout)
             self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            ask_for_stamps(self.socket)
         return True
+
+    def recv(self, size: int | None) -> bytes:
+        """What is there, waiting for its first byte; nothing after the timeout."""
+        assert self.socket is not None
+        if not select.select([self.socket], [], [], self.comm_params.timeout_connect)[0]:
+            return b""
+        data, notes, _, _ = self.socket.recvmsg(size or 4096, ROOM)
+        self.late = age(notes)
+        if not data:
+            self.close()  # type: ignore[no-untyped-call]
+            raise ConnectionException("closed by the other side")  # type: ignore[no-untyped-call]
+        return data
 
 
 class PromptSerial(ModbusSerialClient):
     """The port stays open to the guardian's own handle; bytes are taken as they come, not in steps of 1 ms."""
+
+    late = 0.0
 
     def connect(self) -> bool:
         """Open the port, unless open; OSError or termios.error with its reason."""

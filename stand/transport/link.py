@@ -41,7 +41,7 @@ class ModbusLink:
         if sending:
             self._sent = self._clock() + self._byte * len(data)
         else:
-            self._received = self._clock() - self._byte * len(data)
+            self._received = self._clock() - self._client.late - self._byte * len(data)
         return data
 
     @property
@@ -87,7 +87,8 @@ class ModbusLink:
     def stamped(self, request: ModbusPDU) -> tuple[ModbusPDU, float, float]:
         """The answer, with the host's times between which the device has looked at the question, s.
 
-        On TCP just before sending and just after the last byte; on RTU less what the bytes need on the line.
+        On TCP just before sending and when the host's network had the last byte; on RTU less what the bytes need on
+        the line.
         """
         request.dev_id = self.link.unit_id
         with self._turns.take():

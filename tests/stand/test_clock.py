@@ -42,6 +42,16 @@ def test_the_worst_of_fifty_seeds_keeps_the_promise(shape: Shape, timer: float |
         assert outcome.x_rms < 5e-6, seed
 
 
+@pytest.mark.parametrize("seed", [20, 25, 35])
+def test_a_timer_in_step_with_the_frames_leaves_their_phase_open_and_the_stated_error_says_so(seed: int) -> None:
+    wires = draw(seed, off=0.0)
+    aligned = align(wires.streams, wires.stand, wires.origin, wires.count)
+    for name in ("force_gauge", "dial_gauge"):
+        error, stated = time_error(wires, aligned, name), aligned.clocks[name].sigma
+        assert error < 260e-6
+        assert error < 3 * stated
+
+
 @pytest.mark.parametrize("timer", [0.016, None])
 def test_lost_frames_are_counted_placed_within_fifty_milliseconds_and_marked(timer: float | None) -> None:
     lost = {"force_gauge": ((9000, 1),), "dial_gauge": ((5000, 3),)}

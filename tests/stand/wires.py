@@ -45,10 +45,14 @@ def draw(
     shape: Shape = Shape.TRAPEZOIDAL,
     *,
     timer: float | None = 0.016,
+    off: float = 3e-3,
     lost: dict[str, tuple[tuple[int, int], ...]] | None = None,
     wrong_by_sigma: float = 0.0,
 ) -> Wires:
-    """One run: clocks within 50 ppm (every fifth seed has them exactly right), bunched by a timer or prompt."""
+    """One run: clocks within 50 ppm (every fifth seed has them exactly right), bunched by a timer or prompt.
+
+    off: how far the timer's period may be off, relative.
+    """
     rng = np.random.default_rng(seed)
     stand = load_stand()
     motion = plan(MOTIONS[shape], stand.limits)
@@ -65,7 +69,7 @@ def draw(
         byte_time = 10.0 / stand.instruments[name].link.baud  # type: ignore[union-attr]
         latency[name] = CONVERSION[name] + LENGTH[name] * byte_time + JITTER[0]
         streams[name] = _gauge(
-            rng, name, time, signals[name](time - origin), byte_time, timer, (lost or {}).get(name, ())
+            rng, name, time, signals[name](time - origin), byte_time, timer, off, (lost or {}).get(name, ())
         )
         epochs[name], periods[name] = epoch, period
     epochs["drive"], periods["drive"] = HOST - 2 + float(rng.uniform(0, 1e-3)), 1e-3 / (1 + drift["drive"])
@@ -119,6 +123,7 @@ def _gauge(
     values: Float,
     byte_time: float,
     timer: float | None,
+    off: float,
     lost: tuple[tuple[int, int], ...],
 ) -> GaugeStream:
     noise = {"force_gauge": 0.12, "dial_gauge": 6e-6}[name]
@@ -128,7 +133,7 @@ def _gauge(
         kept[first : first + count] = False
     size = LENGTH[name]
     leaves = (time[kept, None] + CONVERSION[name] + byte_time * np.arange(1, size + 1)).ravel()
-    ticks = _ticks(rng, leaves, timer)
+    ticks = _ticks(rng, leaves, timer, off)
     total = np.searchsorted(leaves, ticks, "right")
     arrival = ticks + rng.uniform(*JITTER, len(ticks))
     some = np.diff(total, prepend=0) > 0
@@ -137,11 +142,11 @@ def _gauge(
     return GaugeStream(raw, arrival, np.diff(total, prepend=0))
 
 
-def _ticks(rng: np.random.Generator, leaves: Float, timer: float | None) -> Float:
+def _ticks(rng: np.random.Generator, leaves: Float, timer: float | None, off: float) -> Float:
     """When bytes are handed over: at a timer's ticks, or some 2 ms apart when a reader comes by."""
     if timer is None:
         return leaves[0] + np.cumsum(rng.uniform(5e-4, 3.5e-3, int((leaves[-1] - leaves[0]) / 2e-3)))
-    period = timer * (1 + rng.uniform(-3e-3, 3e-3))
+    period = timer * (1 + rng.uniform(-off, off))
     return np.arange(leaves[0] + rng.uniform(0, period), leaves[-1], period)
 
 

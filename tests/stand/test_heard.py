@@ -1,0 +1,58 @@
+"""When an answer came is the network's word, not that of a reader who was kept from reading."""
+
+from __future__ import annotations
+
+import socket
+import threading
+import time
+
+import pytest
+
+from stand.config import TcpLink
+from stand.errors import DeviceError
+from stand.transport.link import ModbusLink
+from stand.transport.modbus import read_registers
+
+ANSWER = bytes.fromhex("0001 0000 0005 01 03 02 1234")
+
+
+def _drive(listener: socket.socket, sent: list[float], answer: bytes) -> None:
+    link, _ = listener.accept()
+    with link:
+        question = link.recv(64)
+        sent.append(time.monotonic())
+        link.sendall(question[:2] + answer[2:] if answer else b"")
+
+
+def _asked(answer: bytes, slow: float) -> tuple[float, float, float]:
+    """When the answer was sent, when it is said to have come, and when the reader was back, s."""
+    sent: list[float] = []
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        drive = threading.Thread(target=_drive, args=(listener, sent, answer), daemon=True)
+        drive.start()
+        link = ModbusLink(TcpLink(host="127.0.0.1", port=listener.getsockname()[1], timeout=2.0))
+        with link:
+            hear = link._client.recv  # type: ignore[attr-defined]
+
+            def late(size: int | None) -> bytes:
+                time.sleep(slow)
+                heard: bytes = hear(size)
+                return heard
+
+            link._client.recv = late  # type: ignore[attr-defined]
+            try:
+                _, _, received = link.stamped(read_registers(0, 1))
+            finally:
+                drive.join()
+    return sent[0], received, time.monotonic()
+
+
+def test_a_reader_that_comes_late_still_tells_when_the_answer_came() -> None:
+    sent, received, back = _asked(ANSWER, slow=0.05)
+    assert back - sent > 0.045
+    assert -1e-4 < received - sent < 5e-3
+
+
+def test_a_drive_that_hangs_up_is_told_as_such() -> None:
+    with pytest.raises(DeviceError, match="the connection was closed"):
+        _asked(b"", slow=0.0)
