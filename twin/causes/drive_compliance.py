@@ -1,4 +1,8 @@
-"""The fibre's drive end at x - compliance (F - T0); in series with its strand, to first order in the damping."""
+"""The fibre's drive end at x - compliance (F - T0), in series with its strand (c2, b2).
+
+F / (x - s) = (c2 + b2 p) / (a (1 + tau p)) = c2 / a + b2 / a^2 p / (1 + tau p), a = 1 + compliance c2 and
+tau = compliance b2 / a, p = d/dt: the damper sees the elongation's rate behind a first-order lag of its own.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +10,23 @@ from twin.causes._kind import WFPD, Cause, dynamics
 from twin.kernels import composed_slots as k
 from twin.parameter import Parameter, Source
 
+#: s: quicker lags act through this one in proportion, right to first order, and the step need not follow them
+QUICKEST = 2.5e-4
+
 
 @dynamics
 def _softer(q, p):  # type: ignore[no-untyped-def]
+    own = int(p[0])
     share = 1.0 / (1.0 + p[1] * q[k.C2])
-    q[k.D2] += (1.0 - share) * 0.0
-    rest = q[k.REST] / q[k.C2]
-    q[k.D2] += rest * (1.0 / share - 1.0)
+    lag = p[1] * q[k.B2] * share
+    slow = max(lag, QUICKEST)
+    q[k.D2] += q[k.REST] / q[k.C2] * (1.0 / share - 1.0)
     q[k.C2] *= share
     q[k.B2] *= share * share
+    rate = q[k.DD2] if q[k.D2] > 0.0 else 0.0
+    q[k.E2] += q[k.B2] * lag / slow * (q[k.AUX + own] - rate)
+    q[k.RATE + own] = (rate - q[k.AUX + own]) / slow
+    q[k.STIFF] = max(q[k.STIFF], 1.0 / slow)
 
 
 drive_compliance = Cause(
@@ -24,6 +36,7 @@ drive_compliance = Cause(
     parameters=(Parameter("compliance", "m/N", 0.0, (0.0, 0.0001), 1e-06, "of drive and mount"),),
     source=Source("assumed"),
     before=_softer,
+    states=1,
     order=5,
     rivals=("fibre-stiffness",),
     systems=WFPD,

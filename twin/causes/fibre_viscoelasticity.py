@@ -1,4 +1,8 @@
-"""A Maxwell branch beside each strand: k z with z' = d' - z/time_constant."""
+"""A Maxwell branch beside each strand: k (d - e), e' = (d - e) / time_constant, d the strand's elongation where taut.
+
+States are the dashpots' elongations e beyond those at rest: unlike the springs' they need no rates of d, which a
+snatch changes within a sample.
+"""
 
 from __future__ import annotations
 
@@ -11,12 +15,13 @@ from twin.parameter import Parameter, Source
 
 @dynamics
 def _branch(q, p):  # type: ignore[no-untyped-def]
-    own = k.AUX + int(p[0])
-    rate = k.RATE + int(p[0])
-    q[k.E1] += p[1] * p[3] * q[own]
-    q[k.E2] += p[1] * p[4] * q[own + 1]
-    q[rate] = (q[k.DD1] if q[k.D1] > 0.0 else 0.0) - q[own] / p[2]
-    q[rate + 1] = (q[k.DD2] if q[k.D2] > 0.0 else 0.0) - q[own + 1] / p[2]
+    own = int(p[0])
+    spring1 = max(q[k.D1], 0.0) - q[k.ZERO1] - q[k.AUX + own]
+    spring2 = max(q[k.D2], 0.0) - q[k.ZERO2] - q[k.AUX + own + 1]
+    q[k.E1] += p[1] * p[3] * spring1
+    q[k.E2] += p[1] * p[4] * spring2
+    q[k.RATE + own] = spring1 / p[2]
+    q[k.RATE + own + 1] = spring2 / p[2]
     q[k.STIFF] = max(q[k.STIFF], 1.0 / p[2])
 
 

@@ -20,10 +20,21 @@ from twin.diagnosis.score import Scored, survey
 
 Float = NDArray[np.float64]
 
+#: shares of a stated value at which a base value is tried that may be far from it: first order sees no such distance
+FAR = (0.2, 0.5, 2.0, 4.0)
 
-def sizes(cause: Cause, reach: Survey) -> Iterator[Mapping[str, float]]:
-    """The trials of a cause at several sizes of its first parameter, both signs where it may have them."""
+
+def sizes(cause: Cause, reach: Survey, stated: float) -> Iterator[Mapping[str, float]]:
+    """The trials of a cause at several sizes of its first parameter, both signs where it may have them; of a base
+    value, shares of what is stated.
+    """
     first = cause.parameters[0]
+    if cause.base is not None:
+        for share in FAR:
+            difference = (share - 1.0) * stated
+            if stated > 0 and first.bounds[0] <= difference <= first.bounds[1]:
+                yield {first.name: difference}
+        return
     grows = first.name not in ("position", "level", "friction", "frequency", "width")
     for values in cause.trials(reach):
         size = values[first.name] - first.value
@@ -42,12 +53,13 @@ def screen(problem: Problem, model: Composition, z: Float, causes: Iterable[Caus
     spread = scale(problem, here)
     before, reach, found = loss(here, spread), survey(problem), []
     for cause in causes:
-        if cause.base is not None:
+        stated = float(getattr(model.setups[0], cause.base)) if cause.base else 0.0
+        if cause.base and ("base", cause.base) not in model.index:
             continue
         extended = Composition(model.setups, (*model.causes, cause))
         carried = model.carry(z, extended)
         trials = []
-        for values in sizes(cause, reach):
+        for values in sizes(cause, reach, stated):
             left = residual(problem, extended, extended.put(carried, cause, values), starts)
             trials.append((before - loss(left, spread), 1.0, values))
         found.append(Scored(cause, tuple(sorted(trials, key=lambda t: -t[0])[:2])))

@@ -15,7 +15,7 @@ from twin.causes._kind import Cause
 from twin.diagnosis import clipped
 from twin.diagnosis.audit import audit_all
 from twin.diagnosis.composition import Composition
-from twin.diagnosis.fit import Fitted, fit
+from twin.diagnosis.fit import FINE, Fitted, fit
 from twin.diagnosis.following import following
 from twin.diagnosis.found import Evidence, Step
 from twin.diagnosis.hum import find
@@ -204,7 +204,7 @@ def confirm(problem: Problem, search: Search, ranks: Sequence[Standing], notes: 
         ladder.append(Step(name, _pair(where, seen), _pair(held, unseen)))
     calibrated = fixed(problem, search.base)
     final = fixed(problem, search.current)
-    final = fit(problem, final.model, final.z, final.starts, iterations=4)
+    final = fit(problem, final.model, final.z, final.starts, iterations=10, tolerance=FINE)
     return Evidence(problem, nothing, calibrated, final, tuple(ladder), tried(search, ranks), tuple(notes))
 
 

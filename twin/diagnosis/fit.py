@@ -19,6 +19,8 @@ STEP = 0.02
 START_STEP = 0.1
 FAR = 8.0
 BASE_EVERY, BEGIN_EVERY = 4, 2
+#: relative gain in cost at which a fit ends that something hangs on: about one in chi^2
+FINE = 1e-5
 
 
 @dataclass(frozen=True)

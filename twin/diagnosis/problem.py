@@ -15,6 +15,7 @@ from stand.setup import System
 from twin.causes._kind import Undo
 from twin.diagnosis.composition import Composition, Hooks
 from twin.diagnosis.coordinates import STATED
+from twin.diagnosis.measured import measured_path
 from twin.diagnosis.run import LENGTH, Run, Windows, half
 from twin.diagnosis.shared import shared, spread
 from twin.diagnosis.smooth import curvature, gains, polynomial
@@ -25,6 +26,8 @@ Float = NDArray[np.float64]
 Index = NDArray[np.int64]
 T = TypeVar("T")
 FINE = 5e-4  # s between samples at which local polynomials follow any motion of a stand
+#: a start's rim: displaced so far to feel its stiffness, moved no farther at once nor more often, and settled, m
+NUDGE, FARTHEST, BALANCED, SETTLED = 2e-6, 1e-3, 5, 1e-9
 
 
 class _Kept(threading.local):
@@ -100,7 +103,7 @@ class Problem:
         constants = self._constants(model, z, undo)
         drive = self._driven(model, z)
         before, after = model.hooks(z, "before"), model.hooks(z, "after")
-        own = self._own(model, z, constants, drive, before, after)
+        own = self._own(model, z, constants, drive, undo, before, after)
         centre = self._centres(model, z, constants, drive, before, after, own)
         state = np.ascontiguousarray(centre + starts * self.spread)
         return self._carry(state, own, constants, drive, before, after, LENGTH)
@@ -161,43 +164,40 @@ class Problem:
             parts.append(np.column_stack([x, speed]))
         return np.ascontiguousarray(np.concatenate(parts))
 
-    def _own(self, model: Composition, z: Float, constants: Float, drive: Float, before: Hooks, after: Hooks) -> Float:
+    def _own(
+        self, model: Composition, z: Float, constants: Float, drive: Float, undo: Undo, before: Hooks, after: Hooks
+    ) -> Float:
         """The causes' own states at the starts, from their history along the measured motion.
 
-        Kept by the hooks' constants alone: what a small step of a base value does to a history is of second order.
+        Kept by the causes' parameters alone: what a small step of a base value does to a history is of second order.
         """
         own = np.zeros((len(self.windows), k.STATES))
         if not model.own_states or self.system is System.LINEAR_DRIVE:
             return own
 
         def fill() -> Float:
-            shared([partial(self._history, r, own, constants, drive, before, after) for r in range(len(self.runs))])
+            runs = range(len(self.runs))
+            shared([partial(self._history, r, own, constants, drive, undo, before, after) for r in runs])
             return own
 
-        return self._keep(("own", tuple(c.name for c in model.causes), before.p.tobytes(), after.p.tobytes()), 6, fill)
+        values = tuple(v for c in model.causes for v in model.values(z, c).values() if c.base is None)
+        return self._keep(("own", tuple(c.name for c in model.causes), values), 6, fill)
 
-    def _history(self, r: int, own: Float, constants: Float, drive: Float, before: Hooks, after: Hooks) -> None:
+    def _history(
+        self, r: int, own: Float, constants: Float, drive: Float, undo: Undo, before: Hooks, after: Hooks
+    ) -> None:
         run, mine = self.runs[r], self.windows.run == r
         if not mine.any():
             return
         last = int(self.windows.first[mine].max()) + 2
         ends = drive[self.offset[r] : self.offset[r] + last]
-        path = self._path(run, ends, constants[r], last)
+        path, force = measured_path(run, ends, constants[r], undo, last)
         out = np.empty((last, k.STATES))
         composed.history(
-            path, ends, constants[r], np.zeros((1, k.STATES)), self.dt,
+            path, force, ends, constants[r], np.zeros((1, k.STATES)), self.dt,
             before.address, before.p, after.address, after.p, out,
         )  # fmt: skip
         own[mine] = out[self.windows.first[mine]]
-
-    def _path(self, run: Run, ends: Float, c: Float, n: int) -> Float:
-        """u, v, s, w as measured and balanced between the strands; what creeps slower than 2 mm/s rests."""
-        u, v = run.u.value[:n], run.u.rate[:n]
-        share = c[k.K_C1] / (c[k.K_C1] + c[k.K_C2]) if self.system is System.WFPD else 0.0
-        s = share * u + (1 - share) * ends[:, 0] if self.system is System.WFPD else np.zeros(n)
-        w = share * v + (1 - share) * ends[:, 1] if self.system is System.WFPD else np.zeros(n)
-        w = np.where(np.abs(w) < 0.002, 0.0, w)
-        return np.ascontiguousarray(np.column_stack([u, v, s, w]))
 
     def _centres(
         self, model: Composition, z: Float, constants: Float, drive: Float, before: Hooks, after: Hooks, own: Float
@@ -220,10 +220,25 @@ class Problem:
         rate = Fd / undo.F_gain / c[:, k.K_C2]
         centre[:, 3] = drive[at, 1] - rate
         centre[:, 2] = drive[at, 0] + c[:, k.K_REST] / c[:, k.K_C2] - (F - c[:, k.K_B2] * rate) / c[:, k.K_C2]
-        for _ in range(2):
-            first, _ = self._carry(np.ascontiguousarray(centre), own, constants, drive, before, after, 1)
-            centre[:, 2] += np.clip((first[:, 0, 2] - F) / c[:, k.K_C2], -2e-4, 2e-4)
+        if len(before.address):
+            self._balance(centre, F, rate, c, lambda: self._carry(centre, own, constants, drive, before, after, 1)[0])
         return centre
+
+    def _balance(self, centre: Float, F: Float, rate: Float, c: Float, carried: Callable[[], Float]) -> None:
+        """Moves s and w, in place, to where the strand as the causes change it pulls as measured, and as fast.
+
+        rate: F' over the strand's stated stiffness, m/s. carried: the starts' first sample as it would be.
+        """
+        here = carried()[:, 0, 2]
+        centre[:, 2] += NUDGE
+        stiff = np.clip((here - carried()[:, 0, 2]) / NUDGE, 0.05 * c[:, k.K_C2], 20.0 * c[:, k.K_C2])
+        centre[:, 2] -= NUDGE
+        centre[:, 3] += rate - rate * c[:, k.K_C2] / stiff
+        for _ in range(BALANCED):
+            move = np.clip((carried()[:, 0, 2] - F) / stiff, -FARTHEST, FARTHEST)
+            centre[:, 2] += move
+            if float(np.max(np.abs(move), initial=0.0)) < SETTLED:
+                break
 
     def _around(self, channel: int, late: Float, lag: float) -> tuple[Float, Float]:
         """A channel's smooth value and rate at the starts, `late` s further on and a lag undone: between the local

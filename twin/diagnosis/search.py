@@ -14,7 +14,7 @@ from twin.diagnosis.clipped import GUIDE_END, PASSED
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.coordinates import NO_FRICTION, STATED
 from twin.diagnosis.direct import screen
-from twin.diagnosis.fit import Fitted, Linear, carried, fit, slopes
+from twin.diagnosis.fit import FINE, Fitted, Linear, carried, fit, slopes
 from twin.diagnosis.misfit import error, gained, misses, ranked
 from twin.diagnosis.precision import covariance
 from twin.diagnosis.problem import Problem
@@ -29,7 +29,7 @@ QUICK, LONG = 3, 12
 MOST = 4
 NEEDED = 0.012
 NOISE = 1.12
-STRONG, LEFT = 0.9, 1.04
+STRONG, LEFT, NEARLY = 0.9, 1.04, 1.015
 #: first-order leaders that are tried before those
 ROOM = 3
 #: squared error in the sensors' noise, and share of the base's, that two causes leave only where neither is true
@@ -164,8 +164,8 @@ def _begin_fit(problem: Problem, fitted: Fitted, scored: Scored, known: Linear |
         begun = carried(known, fitted.model, model)
         return fit(problem, model, z, fitted.starts, iterations=QUICK, known=begun)
     if not fitted.model.causes:
-        stated = np.array([c.owner in STATED for c in model.coordinates])
-        z = np.where(stated, 0.0, z)
+        bent = np.array([c.owner in STATED and np.isfinite(c.prior) for c in model.coordinates])
+        z = np.where(bent, 0.0, z)
     settled = fit(problem, model, z, iterations=1, fixed=np.ones(len(z), bool))
     return fit(problem, model, z, settled.starts, iterations=QUICK + 1)
 
@@ -203,8 +203,15 @@ def forward(search: Search, causes: Sequence[Cause], progress: Callable[[str, fl
         tried = [f for f in tried if sound(problem, search.current, f)]
         if not tried:
             break
-        search.current = tried[0]
-        search.ladder.append(tried[0])
+        search.current = _finished(problem, tried[0])
+        search.ladder.append(search.current)
+
+
+def _finished(problem: Problem, fitted: Fitted) -> Fitted:
+    """The fit to its very end where something is left: a further cause must not be credited with what it lacked."""
+    if error(problem, fitted.residual).max() < NEARLY:
+        return fitted
+    return fit(problem, fitted.model, fitted.z, fitted.starts, iterations=LONG, tolerance=FINE)
 
 
 def hopeless(search: Search) -> bool:

@@ -61,12 +61,12 @@ def windows(starts, own, constants, run, first, length, drive, dt, before, bp, a
             status[j] = advance(y, q, c, row, (first[j] + i) * dt, dt, before, bp, after, ap, mode, end)
 
 
-@compiled(f"void({_M},{_M},{_V},{_M},float64,{_HOOKS},{_M})")
-def history(path, drive, c, own, dt, before, bp, after, ap, out):
+@compiled(f"void({_M},{_V},{_M},{_V},{_M},float64,{_HOOKS},{_M})")
+def history(path, force, drive, c, own, dt, before, bp, after, ap, out):
     """The causes' own states along a measured run: path [n, 4] u, v, s, w; own [1, 8] at its start; out [n, 8].
 
     The midpoint rule, its half step from the slope before; as many steps a sample as the hooks' decay asks for.
-    Tensions are what the strands give on that path.
+    Tensions are what the strands give on that path; the drive strand's is force [n], N, where that is not negative.
     """
     n, count = len(path), int(c[k.K_OWN])
     y, q, mode = np.zeros(FULL), np.zeros(k.SIZE), np.ones(2, np.int64)
@@ -88,13 +88,16 @@ def history(path, drive, c, own, dt, before, bp, after, ap, out):
                 y[m] = path[i, m] + theta * (path[i + 1, m] - path[i, m])
             x = drive[i, 0] + theta * (drive[i + 1, 0] - drive[i, 0])
             xd = drive[i, 1] + theta * (drive[i + 1, 1] - drive[i, 1])
+            told = -1.0
+            if force[i] >= 0.0 and force[i + 1] >= 0.0:
+                told = force[i] + theta * (force[i + 1] - force[i])
             for m in range(count):
                 y[4 + m] = state[m] + 0.5 * h * slope[m]
             on1, on2 = True, True
             for _ in range(2):  # once more where a strand turns out to be slack
                 taut1, taut2 = on1, on2
                 _, _, _, on1, on2 = evaluate(
-                    y[0], y[1], y[2], y[3], x, xd, (i + theta) * dt, y, q, c, before, bp, after, ap, taut1, taut2
+                    y[0], y[1], y[2], y[3], x, xd, (i + theta) * dt, y, q, c, before, bp, after, ap, taut1, taut2, told
                 )
                 if on1 and on2:
                     break

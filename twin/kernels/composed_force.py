@@ -30,10 +30,11 @@ def _afresh(q, c):
 
 
 @part(inline="always")
-def evaluate(u, v, s, w, x, xd, time, own, q, c, before, bp, after, ap, taut1, taut2):
+def evaluate(u, v, s, w, x, xd, time, own, q, c, before, bp, after, ap, taut1, taut2, told=-1.0):
     """v', w', the drive strand's tension, and whether each strand is taut there by itself: d > 0 and T > 0.
 
-    own: the causes' states at 4..; their rates are left in q[RATE..]. The tensions are what taut1 and taut2 say.
+    own: the causes' states at 4..; their rates are left in q[RATE..]. The tensions are what taut1 and taut2 say;
+    told: the drive strand's as it was measured, N, where it is not negative.
     """
     system = c[k.K_SYSTEM]
     hooked = before.shape[0] + after.shape[0] > 0
@@ -56,7 +57,7 @@ def evaluate(u, v, s, w, x, xd, time, own, q, c, before, bp, after, ap, taut1, t
         d1, dd1, d2, dd2 = q[k.D1], q[k.DD1], q[k.D2], q[k.DD2]
     pull1, pull2 = c1 * d1 + b1 * dd1 + e1, c2 * d2 + b2 * dd2 + e2
     t1 = pull1 if taut1 else 0.0
-    t2 = pull2 if taut2 else 0.0
+    t2 = told if told >= 0.0 else (pull2 if taut2 else 0.0)
     if system == k.WF:
         t2 = t1
     elif system == k.AXIS:
