@@ -6,7 +6,9 @@ tau = compliance b2 / a, p = d/dt: the damper sees the elongation's rate behind 
 
 from __future__ import annotations
 
-from twin.causes._kind import WFPD, Cause, dynamics
+from collections.abc import Sequence
+
+from twin.causes._kind import WFPD, Cause, Survey, Values, dynamics, grid
 from twin.kernels import composed_slots as k
 from twin.parameter import Parameter, Source
 
@@ -29,6 +31,10 @@ def _softer(q, p):  # type: ignore[no-untyped-def]
     q[k.STIFF] = max(q[k.STIFF], 1.0 / slow)
 
 
+def _scan(survey: Survey) -> Sequence[Values]:
+    return grid({}, compliance=(1e-7, 1e-6))  # nearly what a softer fibre does: only small steps show the difference
+
+
 drive_compliance = Cause(
     name="drive-compliance",
     title="the drive gives way under load",
@@ -38,6 +44,7 @@ drive_compliance = Cause(
     before=_softer,
     states=1,
     order=5,
+    scan=_scan,
     rivals=("fibre-stiffness",),
     systems=WFPD,
 )
