@@ -1,19 +1,26 @@
-"""Windows' starts as their instruments tell them."""
+"""Windows' starts as instruments and causes tell them, and what follows from them."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 import twin.causes
 from mocks.plant.motion import Motion
 from mocks.plant.operator import draw_stand
 from mocks.record import record
 from stand.recording import read_recording
+from stand.setup import System
 from twin.causes._kind import Cause
 from twin.diagnosis.audit import audit_all
 from twin.diagnosis.composition import Composition
+from twin.diagnosis.direct import screen
+from twin.diagnosis.engine import known
+from twin.diagnosis.fit import fit
+from twin.diagnosis.misfit import misses
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.run import choose, prepare
 from twin.plugins import load
@@ -34,3 +41,47 @@ def test_a_start_does_not_jump_where_a_delay_passes_half_a_sample(tmp_path: Path
     assert len(before) >= 4
     assert np.abs(after - before).max() < 3e-7  # m: at most 1.5 m/s for 0.2 us
     assert np.abs(starts(0.5e-3) - before).max() > 5e-6  # the delay itself is undone
+
+
+#: a slow run, in which a state may not drift, and one that throws the weight and catches it
+SLOW, THROWN = Motion("trapezoidal", 0.25, 0.04, 0.8), Motion("rectangular", 1.0, 0.05, 0.0)
+WITH_MEMORY = {
+    "fibre-creep": {"compliance": 4e-5, "time_constant": 1.2},
+    "fibre-viscoelasticity": {"stiffness": 8000.0, "time_constant": 0.15},
+    "fibre-hysteresis": {"stiffness": 6000.0, "yield_elongation": 0.0004},
+    "drive-compliance": {"compliance": 6e-6},
+}
+
+
+def _exact(folder: Path, hidden: dict[str, dict[str, float | str]], motions: tuple[Motion, ...]) -> Problem:
+    """Runs of a stand whose operator has every value right."""
+    stand = replace(draw_stand(62), true=draw_stand(62).believed)
+    paths = [
+        record(stand, motion, path=folder / f"{i}.h5", seconds=8.0, seed=62 + i, hidden=hidden)
+        for i, motion in enumerate(motions)
+    ]
+    runs = tuple(prepare(r) for r in audit_all([read_recording(p) for p in paths], ())[0])
+    return Problem(runs, choose(runs, 24))
+
+
+@pytest.mark.parametrize("name", WITH_MEMORY)
+def test_with_a_causes_true_values_windows_are_predicted_to_the_noise(name: str, tmp_path: Path) -> None:
+    problem = _exact(tmp_path, {name: WITH_MEMORY[name]}, (SLOW, THROWN))
+    cause = load(twin.causes, name, Cause)
+    model = Composition(tuple(r.setup for r in problem.runs), (cause,))
+    z = model.put(model.zero(), cause, WITH_MEMORY[name])
+    fitted = fit(problem, model, z, iterations=3, fixed=np.ones(len(z), bool))
+    for run in range(2):
+        mine = np.flatnonzero(problem.windows.run == run)
+        assert len(mine) >= 8
+        each = misses(problem, fitted.residual)[mine]  # one sample at a snatch is enough to spoil a window's mean
+        assert np.quantile(each, 0.75, axis=0).max() < 1.3
+        assert np.sqrt(np.mean(fitted.starts[mine] ** 2)) < 2.5
+
+
+def test_a_base_value_far_from_what_is_stated_leads_the_direct_screen(tmp_path: Path) -> None:
+    soft = {"fibre-stiffness": {"difference": -0.8 * draw_stand(62).believed.fibre_stiffness}}
+    problem = _exact(tmp_path, soft, (SLOW, THROWN))
+    model = Composition(tuple(r.setup for r in problem.runs), ())
+    ranked = screen(problem, model, model.zero(), known(System.WFPD))
+    assert ranked[0].cause.name == "fibre-stiffness"
