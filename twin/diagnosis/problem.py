@@ -16,7 +16,7 @@ from twin.causes._kind import Undo
 from twin.diagnosis.composition import Composition, Hooks
 from twin.diagnosis.coordinates import STATED
 from twin.diagnosis.measured import measured_path
-from twin.diagnosis.run import LENGTH, Run, Windows, half
+from twin.diagnosis.run import LENGTH, REST, Run, Windows, half
 from twin.diagnosis.shared import shared, spread
 from twin.diagnosis.smooth import curvature, gains, polynomial
 from twin.kernels import composed, composed_sense
@@ -110,7 +110,7 @@ class Problem:
 
     def _constants(self, model: Composition, z: Float, undo: Undo) -> Float:
         """Every run's constants; they hang on the base values and the true rest forces alone."""
-        rest = [(r.rest_force - undo.F_offset) / undo.F_gain for r in self.runs]
+        rest = [(r.rest_force - undo.F_offset - undo.F_rate * 0.5 * REST) / undo.F_gain for r in self.runs]
         stated = tuple(float(v) for v, c in zip(z, model.coordinates, strict=True) if c.owner in STATED)
         key = ("constants", tuple(c.name for c in model.causes), stated, tuple(rest))
         return self._keep(key, 5, lambda: model.constants(z, rest))

@@ -20,6 +20,7 @@ HALF = 0.006  # s about a start that its local polynomials take in
 SMOOTH = 0.008  # s about a start that must be smooth
 LASTS = 0.092  # s of a window that are used at least where the rate is low, or FEWEST samples
 FEWEST = 36
+SLACK = 2.5e-4, 1e-3, 5e-3  # m, m per m/s and m per m by which a taut fibre may seem too long: give, delays and scales
 CLEAR = 20  # samples about a start that must be good
 
 
@@ -157,9 +158,17 @@ def _smooth_starts(run: Run) -> Index:
         low = np.min(np.lib.stride_tricks.sliding_window_view(run.F.value, 2 * reach + 1)[places - reach], axis=1)
         limit = 1.6 * run.noise_F + 0.004 * np.abs(value)
         taut = np.minimum(4.0, 0.3 * abs(run.rest_force))
-        good &= (left < limit) & (low > taut)
+        good &= (left < limit) & (low > taut) & _stretched(run)[places]
     chosen: Index = places[good]
     return chosen
+
+
+def _stretched(run: Run) -> NDArray[np.bool_]:
+    """Where the fibre may be taut by x, u and the rest force: a gauge that drifts shows force where there is none."""
+    stretch = run.x.value - run.u.value + run.rest_force / run.setup.fibre_stiffness
+    doubt = SLACK[0] + SLACK[1] * np.abs(run.u.rate) + SLACK[2] * np.abs(run.u.value)
+    taut: NDArray[np.bool_] = stretch > -doubt
+    return taut
 
 
 def _released(run: Run) -> int:

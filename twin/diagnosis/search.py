@@ -14,7 +14,8 @@ from twin.diagnosis.clipped import GUIDE_END, PASSED
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.coordinates import NO_FRICTION, STATED
 from twin.diagnosis.direct import screen
-from twin.diagnosis.fit import FINE, Fitted, Linear, carried, fit, slopes
+from twin.diagnosis.finish import finished
+from twin.diagnosis.fit import Fitted, Linear, carried, fit, slopes
 from twin.diagnosis.misfit import error, gained, misses, ranked
 from twin.diagnosis.precision import covariance
 from twin.diagnosis.problem import Problem
@@ -29,7 +30,7 @@ QUICK, LONG = 3, 12
 MOST = 4
 NEEDED = 0.012
 NOISE = 1.12
-STRONG, LEFT, NEARLY = 0.9, 1.04, 1.015
+STRONG, LEFT = 0.9, 1.04
 #: first-order leaders that are tried before those
 ROOM = 3
 #: squared error in the sensors' noise, and share of the base's, that two causes leave only where neither is true
@@ -203,15 +204,8 @@ def forward(search: Search, causes: Sequence[Cause], progress: Callable[[str, fl
         tried = [f for f in tried if sound(problem, search.current, f)]
         if not tried:
             break
-        search.current = _finished(problem, tried[0])
+        search.current = finished(problem, tried[0])
         search.ladder.append(search.current)
-
-
-def _finished(problem: Problem, fitted: Fitted) -> Fitted:
-    """The fit to its very end where something is left: a further cause must not be credited with what it lacked."""
-    if error(problem, fitted.residual).max() < NEARLY:
-        return fitted
-    return fit(problem, fitted.model, fitted.z, fitted.starts, iterations=LONG, tolerance=FINE)
 
 
 def hopeless(search: Search) -> bool:
