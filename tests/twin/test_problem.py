@@ -19,6 +19,7 @@ from twin.diagnosis.audit import audit_all
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.direct import screen
 from twin.diagnosis.engine import known
+from twin.diagnosis.finish import finished
 from twin.diagnosis.fit import fit
 from twin.diagnosis.misfit import misses
 from twin.diagnosis.problem import Problem
@@ -85,3 +86,25 @@ def test_a_base_value_far_from_what_is_stated_leads_the_direct_screen(tmp_path: 
     model = Composition(tuple(r.setup for r in problem.runs), ())
     ranked = screen(problem, model, model.zero(), known(System.WFPD))
     assert ranked[0].cause.name == "fibre-stiffness"
+
+
+def test_a_drifting_gauges_slack_stretches_start_no_window(tmp_path: Path) -> None:
+    """After six seconds the slack fibre seems to pull with more than the 4 N from which it counts as taut."""
+    (tmp_path / "true").mkdir()
+    drifting = _exact(tmp_path, {"force-gauge-drift": {"rate": 0.9}}, (THROWN,))
+    true = _exact(tmp_path / "true", {}, (THROWN,)).runs[0].raw_F
+    slack = true < 1.0
+    assert np.mean(slack[10_000:]) > 0.4
+    assert len(drifting.windows) >= 12
+    assert not slack[drifting.windows.first].any()
+
+
+def test_a_fit_that_calibration_left_bent_is_finished_at_the_true_values(tmp_path: Path) -> None:
+    problem = _exact(tmp_path, {"pulley-bearing-drag": {"coefficient": 8.4}}, (SLOW, THROWN))
+    cause = load(twin.causes, "pulley-bearing-drag", Cause)
+    model = Composition(tuple(r.setup for r in problem.runs), (cause,))
+    z = model.put(model.zero(), cause, {"coefficient": 8.9})
+    z[[model.index["base", "split"], model.index["base", "pulley_inertia"]]] = 3.0, -2.0
+    done = finished(problem, fit(problem, model, z, iterations=2))
+    assert model.values(done.z, cause)["coefficient"] == pytest.approx(8.4, rel=0.02)
+    assert abs(done.z[model.index["base", "split"]]) < 2.0
