@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from mocks.plant.kept import kernel
 
 # state
 U, V, S, W, SLIP, MOUNT, Q1, Q2, Z1, Z2, E1, E2 = range(12)
@@ -23,7 +24,7 @@ CONTACTS = 4
 GUIDE, PATCH, RIM, SPEED = range(4)
 
 
-@njit(cache=True)
+@kernel
 def look(table, where, low, high):  # type: ignore[no-untyped-def]
     """`table` at `where`, linear between its points, its ends beyond them."""
     place = (where - low) / (high - low) * (table.size - 1)
@@ -32,7 +33,7 @@ def look(table, where, low, high):  # type: ignore[no-untyped-def]
     return table[i] + share * (table[i + 1] - table[i])
 
 
-@njit(cache=True)
+@kernel
 def relax(bristle, velocity, creep, presliding, dt):  # type: ignore[no-untyped-def]
     """A bristle's deflection (as a share of saturation) after dt at a velocity; steady: tanh(velocity/creep).
 
@@ -48,7 +49,7 @@ def relax(bristle, velocity, creep, presliding, dt):  # type: ignore[no-untyped-
     return goal + (bristle - goal) * math.exp(-rate / presliding * dt)
 
 
-@njit(cache=True)
+@kernel
 def elongations(y, x, p):  # type: ignore[no-untyped-def]
     """Elongation of the weight strand and the drive strand."""
     rim = y[S] + y[SLIP]
@@ -58,7 +59,7 @@ def elongations(y, x, p):  # type: ignore[no-untyped-def]
     return d1, d2
 
 
-@njit(cache=True)
+@kernel
 def gap(contact, y, x, p):  # type: ignore[no-untyped-def]
     """How far a contact is closed: positive while its strand is stretched or its stop pressed."""
     if contact == WEIGHT_STRAND:
@@ -68,7 +69,7 @@ def gap(contact, y, x, p):  # type: ignore[no-untyped-def]
     return y[U] - p.stop_high if contact == HIGH_STOP else p.stop_low - y[U]
 
 
-@njit(cache=True)
+@kernel
 def pull(d, share, y, q, z, e, p):  # type: ignore[no-untyped-def]
     """Tension of a stretched strand without its damper; the strand is 1/share of the fibre."""
     stretch = (d - y[e]) * share  # as the whole fibre would stretch
@@ -78,11 +79,11 @@ def pull(d, share, y, q, z, e, p):  # type: ignore[no-untyped-def]
     return tension + p.hysteresis * p.yield_elongation * y[z]
 
 
-@njit(cache=True)
+@kernel
 def guide_force(t, y, tension, bristle, p, tables):  # type: ignore[no-untyped-def]
     """All that the guide does against the weight's motion, N."""
     u, v = y[U], y[V]
-    dry = p.friction + math.copysign(0.5 * p.asymmetry, bristle)
+    dry = p.friction + 0.5 * p.asymmetry * math.copysign(1.0, bristle)
     if p.stribeck != 0.0:
         dry += p.stribeck * math.exp(-((v / p.stribeck_velocity) ** 2))
     if p.load_friction != 0.0:
@@ -98,7 +99,7 @@ def guide_force(t, y, tension, bristle, p, tables):  # type: ignore[no-untyped-d
     return force + dry * bristle + (p.viscous + p.quadratic * abs(v)) * v + p.spring * u
 
 
-@njit(cache=True)
+@kernel
 def stop_force(y, contact, p):  # type: ignore[no-untyped-def]
     """Force of the end stops on the weight, N, positive up-slope."""
     force = 0.0
@@ -109,7 +110,7 @@ def stop_force(y, contact, p):  # type: ignore[no-untyped-def]
     return force
 
 
-@njit(cache=True)
+@kernel
 def fibre_speed(a1, a2, b1, b2, vx, y, lever, p):  # type: ignore[no-untyped-def]
     """Speed of the fibre on the rim: the rim's own, or what keeps T_hi/T_lo at exp(friction wrap) while it slides.
 
@@ -130,7 +131,7 @@ def fibre_speed(a1, a2, b1, b2, vx, y, lever, p):  # type: ignore[no-untyped-def
     return w
 
 
-@njit(cache=True)
+@kernel
 def inner_rates(y, contact, d1, d2, dd1, dd2, p, report, dy):  # type: ignore[no-untyped-def]
     """Derivatives of the fibre's inner states (Maxwell branch, Bouc-Wen, creep)."""
     for side in range(2):
@@ -144,7 +145,7 @@ def inner_rates(y, contact, d1, d2, dd1, dd2, p, report, dy):  # type: ignore[no
         dy[e] = (p.creep / share * report[T1 + side] - y[e]) / p.creep_time
 
 
-@njit(cache=True)
+@kernel
 def accelerate(t, y, ax, t1, t2, lever, fibre, bristle, bearing, contact, p, tables, report, dy):  # type: ignore[no-untyped-def]
     """Accelerations of weight and rim; the fibre's own mass couples them (consistent mass of a straight strand)."""
     friction = guide_force(t, y, t1, bristle, p, tables)
@@ -167,7 +168,7 @@ def accelerate(t, y, ax, t1, t2, lever, fibre, bristle, bearing, contact, p, tab
     report[FRICTION], report[ACCELERATION], report[RIM_FORCE] = friction, dy[V], rim
 
 
-@njit(cache=True)
+@kernel
 def rates(t, y, x, vx, ax, bristle, bearing, contact, p, tables, inner, report, dy):  # type: ignore[no-untyped-def]
     """dy = y'(t) with the drive at x, x', x''; contacts and bristles are held. inner: the fibre has inner states."""
     d1, d2 = elongations(y, x, p)

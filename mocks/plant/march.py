@@ -4,7 +4,6 @@ bristles of dry friction relaxed exactly in half-steps on both sides of it (Stra
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from mocks.plant.forces import (
@@ -28,6 +27,7 @@ from mocks.plant.forces import (
     rates,
     relax,
 )
+from mocks.plant.kept import kernel
 from mocks.plant.physics import Physics
 
 #: columns of what `march` writes at each grid point
@@ -35,7 +35,7 @@ COLUMNS = ("x", "drive_speed", "u", "v", "s", "w", "F", "T1", "T2", "friction", 
 LOCATING = 4  # secant steps that place a contact within a step
 
 
-@njit(cache=True)
+@kernel
 def drive_at(drive, i, share, dt, out):  # type: ignore[no-untyped-def]
     """x, x', x'' at a share of grid interval i: cubic Hermite through positions and speeds."""
     x0, v0, x1, v1 = drive[i, 0], drive[i, 1] * dt, drive[i + 1, 0], drive[i + 1, 1] * dt
@@ -45,7 +45,7 @@ def drive_at(drive, i, share, dt, out):  # type: ignore[no-untyped-def]
     out[2] = (2.0 * c2 + 6.0 * share * c3) / (dt * dt)
 
 
-@njit(cache=True)
+@kernel
 def relax_both(y, ahead, bristles, h, p):  # type: ignore[no-untyped-def]
     """Guide's and bearing's bristles after h; `ahead` times the last accelerations is added to their speeds."""
     v, w = y[V] + ahead * bristles[2], y[W] + ahead * bristles[3]
@@ -54,7 +54,7 @@ def relax_both(y, ahead, bristles, h, p):  # type: ignore[no-untyped-def]
         bristles[1] = relax(bristles[1], w, p.bearing_creep, p.bearing_presliding, h)
 
 
-@njit(cache=True)
+@kernel
 def runge_kutta(y, t, h, drive, i, start, dt, z, contact, p, tables, size, work, report):  # type: ignore[no-untyped-def]
     """One step of h from a share `start` of grid interval i into work[0]; work: float64 [7, SIZE]."""
     stage, at = work[5], work[6]
@@ -72,7 +72,7 @@ def runge_kutta(y, t, h, drive, i, start, dt, z, contact, p, tables, size, work,
         work[0, j] += h / 6.0 * (work[1, j] + 2.0 * (work[2, j] + work[3, j]) + work[4, j])
 
 
-@njit(cache=True)
+@kernel
 def step(y, t, h, drive, i, start, dt, z, half, contact, p, tables, size, work, report):  # type: ignore[no-untyped-def]
     """Friction's half-step, then Runge-Kutta into work[0]; y stays as it is, `half` holds the bristles."""
     half[:] = z
@@ -80,7 +80,7 @@ def step(y, t, h, drive, i, start, dt, z, half, contact, p, tables, size, work, 
     runge_kutta(y, t, h, drive, i, start, dt, half, contact, p, tables, size, work, report)
 
 
-@njit(cache=True)
+@kernel
 def first_contact(y, end, x0, x1, contact, p):  # type: ignore[no-untyped-def]
     """The open contact that closes first between two states, and the share of the step at which; (-1, 1) if none."""
     which, share = -1, 1.0
@@ -96,7 +96,7 @@ def first_contact(y, end, x0, x1, contact, p):  # type: ignore[no-untyped-def]
     return which, share
 
 
-@njit(cache=True)
+@kernel
 def locate(which, share, y, t, h, drive, i, start, dt, z, half, contact, p, tables, size, work, report):  # type: ignore[no-untyped-def]
     """Steps to where contact `which` closes (result in work[0]); the share of h that it took. Regula falsi."""
     at = work[6]
@@ -117,7 +117,7 @@ def locate(which, share, y, t, h, drive, i, start, dt, z, half, contact, p, tabl
     return share
 
 
-@njit(cache=True)
+@kernel
 def march(t, y, z, contact, drive, dt, p_record, tables, size, out):  # type: ignore[no-untyped-def]
     """Carries y, z and contacts [4] (all in place) over len(out) grid intervals of dt; out [n, 11].
 
@@ -166,7 +166,7 @@ def march(t, y, z, contact, drive, dt, p_record, tables, size, out):  # type: ig
     return t
 
 
-@njit(cache=True)
+@kernel
 def servo(state, targets, dt, bandwidth, limit, out):  # type: ignore[no-untyped-def]
     """The drive's position loop: state [x, x'] towards each target (x, x', x'') in turn; out [n, 2].
 

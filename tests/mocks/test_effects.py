@@ -115,6 +115,27 @@ def test_it_changes_what_is_recorded_and_nothing_at_its_null(name: str) -> None:
     assert clocks or max(largest(name, "u") / 6e-6, largest(name, "F") / 0.12) > 1.0
 
 
+SIGNED = [e.name for e in effects.everything() if any(z.signed and not z.steady for z in e.sizes)]
+
+
+@pytest.mark.parametrize("name", SIGNED)
+def test_a_signed_effect_turns_round_with_its_sign(name: str) -> None:
+    size = next(z for z in effects.find(name).sizes if z.signed and not z.steady)
+    small = float(size.default) * 0.2 - 0.2 * size.null  # small enough to be nearly linear
+    plain = taut("")
+
+    def change(by: float) -> np.ndarray:
+        out = taut(name, **{size.name: size.null + by})
+        return np.concatenate([(out.x - plain.x) / 1e-6, (out.u - plain.u) / 6e-6, (out.F - plain.F) / 0.12])
+
+    one, other = change(small), change(-small)
+    if name == "clock-drift":  # instruments' clocks: nothing of it is in the plant's own signals
+        clocks = [Plant(hidden={name: {size.name: size.null + by}}).world.clocks for by in (small, -small)]
+        assert all(clocks[0][k] * clocks[1][k] < 0 for k in clocks[0])
+        return
+    assert one @ other < -0.5 * np.linalg.norm(one) * np.linalg.norm(other)
+
+
 @pytest.mark.parametrize("name", effects.names())
 def test_sensors_do_not_touch_the_motion_and_the_rest_does(name: str) -> None:
     hidden, plain = run(STRONG, name), run(STRONG)
