@@ -53,10 +53,12 @@ class PromptTcp(ModbusTcpClient):
 
     def recv(self, size: int | None) -> bytes:
         """What is there, waiting for its first byte; nothing after the timeout."""
-        assert self.socket is not None
-        if not select.select([self.socket], [], [], self.comm_params.timeout_connect)[0]:
+        link = self.socket
+        if link is None or link.fileno() < 0:  # closed meanwhile, from another thread
+            raise ConnectionException("closed")  # type: ignore[no-untyped-call]
+        if not select.select([link], [], [], self.comm_params.timeout_connect)[0]:
             return b""
-        data, notes, _, _ = self.socket.recvmsg(size or 4096, ROOM)
+        data, notes, _, _ = link.recvmsg(size or 4096, ROOM)
         self.late = age(notes)
         if not data:
             self.close()  # type: ignore[no-untyped-call]

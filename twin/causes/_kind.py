@@ -48,9 +48,13 @@ class Undo:
 
 @dataclass(frozen=True)
 class Survey:
-    """What the recordings reach, where a scan has to begin: ranges of u, x [m], F [N], |u'| [m/s], and seconds."""
+    """What the recordings reach, where a scan has to begin: ranges of u, x [m], F [N], |u'| [m/s], and seconds.
+
+    often: where u is for nine tenths of the time; a thrown weight goes far beyond.
+    """
 
     u: tuple[float, float]
+    often: tuple[float, float]
     x: tuple[float, float]
     F: tuple[float, float]
     speed: float

@@ -40,6 +40,7 @@ fibre_viscoelasticity = Cause(
     source=Source("assumed"),
     before=_branch,
     states=2,
+    order=-1,
     pack=strands,
     scan=_scan,
     rivals=("fibre-damping", "fibre-hysteresis", "fibre-creep"),

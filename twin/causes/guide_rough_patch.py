@@ -19,7 +19,7 @@ def _friction(q, p):  # type: ignore[no-untyped-def]
 
 
 def _scan(survey: Survey) -> Sequence[Values]:
-    low, high = survey.u
+    low, high = survey.often
     span = high - low
     points = []
     for width in (span / 4, span / 9):

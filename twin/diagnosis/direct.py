@@ -31,9 +31,8 @@ def sizes(cause: Cause, reach: Survey, stated: float) -> Iterator[Mapping[str, f
     first = cause.parameters[0]
     if cause.base is not None:
         for share in FAR:
-            difference = (share - 1.0) * stated
-            if stated > 0 and first.bounds[0] <= difference <= first.bounds[1]:
-                yield {first.name: difference}
+            if stated > 0:
+                yield {first.name: (share - 1.0) * stated}
         return
     grows = first.name not in ("position", "level", "friction", "frequency", "width")
     for values in cause.trials(reach):
@@ -60,7 +59,10 @@ def screen(problem: Problem, model: Composition, z: Float, causes: Iterable[Caus
         carried = model.carry(z, extended)
         trials = []
         for values in sizes(cause, reach, stated):
+            if cause.base:
+                problem.forget_states()  # they hang on base values, and these are far off
             left = residual(problem, extended, extended.put(carried, cause, values), starts)
             trials.append((before - loss(left, spread), 1.0, values))
         found.append(Scored(cause, tuple(sorted(trials, key=lambda t: -t[0])[:2])))
+    problem.forget_states()
     return sorted((s for s in found if s.gain > 0), key=lambda s: -s.gain)

@@ -22,8 +22,8 @@ def finished(problem: Problem, fitted: Fitted) -> Fitted:
         return fitted
     model = fitted.model
     bent = np.array([c.owner in STATED and np.isfinite(c.prior) for c in model.coordinates])
-    ends = [
-        fit(problem, model, z, starts, iterations=LONG, tolerance=FINE)
-        for z, starts in ((fitted.z, fitted.starts), (np.where(bent, 0.0, fitted.z), None))
-    ]
+    ends = []
+    for z, starts in ((fitted.z, fitted.starts), (np.where(bent, 0.0, fitted.z), None)):
+        problem.forget_states()
+        ends.append(fit(problem, model, z, starts, iterations=LONG, tolerance=FINE))
     return ranked(problem, ends)[0]

@@ -31,5 +31,5 @@ def measured_path(run: Run, ends: Float, c: Float, undo: Undo, n: int) -> tuple[
     F, rate = (np.interp(at, all_time, a) for a in (run.F.value, run.F.rate))
     told = F + undo.F_lag * rate - undo.F_offset - undo.F_rate * time
     told = (told - undo.F_mass * np.gradient(ends[:, 1], run.dt)) / undo.F_gain
-    told = np.where(SLACK * run.noise_F < F, np.maximum(told, 0.0), 0.0)
+    told = np.where(told * undo.F_gain > SLACK * run.noise_F, told, 0.0)
     return np.ascontiguousarray(np.column_stack([u, v, s, w])), np.where(run.bad[:n, 1], -1.0, told)

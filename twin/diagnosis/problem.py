@@ -229,15 +229,21 @@ class Problem:
 
         rate: F' over the strand's stated stiffness, m/s. carried: the starts' first sample as it would be.
         """
-        here = carried()[:, 0, 2]
+        missed = carried()[:, 0, 2] - F
         centre[:, 2] += NUDGE
-        stiff = np.clip((here - carried()[:, 0, 2]) / NUDGE, 0.05 * c[:, k.K_C2], 20.0 * c[:, k.K_C2])
+        stiff = (missed + F - carried()[:, 0, 2]) / NUDGE
         centre[:, 2] -= NUDGE
+        felt = (stiff > 0.05 * c[:, k.K_C2]) & (stiff < 20.0 * c[:, k.K_C2])  # neither slack nor sliding there
+        stiff = np.where(felt, stiff, c[:, k.K_C2])
         centre[:, 3] += rate - rate * c[:, k.K_C2] / stiff
         for _ in range(BALANCED):
-            move = np.clip((carried()[:, 0, 2] - F) / stiff, -FARTHEST, FARTHEST)
+            move = np.clip(missed / stiff, -FARTHEST, FARTHEST)
             centre[:, 2] += move
-            if float(np.max(np.abs(move), initial=0.0)) < SETTLED:
+            now = carried()[:, 0, 2] - F
+            better = np.abs(now) < np.abs(missed)
+            centre[~better, 2] -= move[~better]
+            missed, stiff = np.where(better, now, missed), np.where(better, stiff, 3.0 * stiff)
+            if float(np.max(np.abs(missed / stiff), initial=0.0)) < SETTLED:
                 break
 
     def _around(self, channel: int, late: Float, lag: float) -> tuple[Float, Float]:

@@ -164,10 +164,13 @@ def _smooth_starts(run: Run) -> Index:
 
 
 def _stretched(run: Run) -> NDArray[np.bool_]:
-    """Where the fibre may be taut by x, u and the rest force: a gauge that drifts shows force where there is none."""
+    """Where the fibre may be taut by x, u and the rest force: a gauge that drifts shows force where there is none.
+
+    A force beyond that at rest is believed: then it is x or u that is off.
+    """
     stretch = run.x.value - run.u.value + run.rest_force / run.setup.fibre_stiffness
     doubt = SLACK[0] + SLACK[1] * np.abs(run.u.rate) + SLACK[2] * np.abs(run.u.value)
-    taut: NDArray[np.bool_] = stretch > -doubt
+    taut: NDArray[np.bool_] = (stretch > -doubt) | (run.F.value > run.rest_force)
     return taut
 
 

@@ -42,8 +42,9 @@ def survey(problem: Problem) -> Survey:
     def reach(name: str) -> tuple[float, float]:
         return min(float(getattr(r, name).min()) for r in runs), max(float(getattr(r, name).max()) for r in runs)
 
+    often = np.quantile(np.concatenate([r.raw_u for r in runs]), [0.05, 0.95])
     return Survey(
-        u=reach("raw_u"), x=reach("raw_x"), F=reach("raw_F"),
+        u=reach("raw_u"), often=(float(often[0]), float(often[1])), x=reach("raw_x"), F=reach("raw_F"),
         speed=max(float(np.abs(r.u.rate).max()) for r in runs), seconds=max(r.seconds for r in runs),
         noise_u=runs[0].noise_u, noise_F=runs[0].noise_F,
     )  # fmt: skip

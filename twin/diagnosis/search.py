@@ -204,7 +204,8 @@ def forward(search: Search, causes: Sequence[Cause], progress: Callable[[str, fl
         tried = [f for f in tried if sound(problem, search.current, f)]
         if not tried:
             break
-        search.current = finished(problem, tried[0])
+        done = finished(problem, tried[0])
+        search.current = done if sound(problem, search.current, done) else tried[0]
         search.ladder.append(search.current)
 
 
