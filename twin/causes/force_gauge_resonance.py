@@ -9,6 +9,8 @@ from twin.causes._kind import Cause, Survey, Undo, Values, grid, sensor
 from twin.parameter import Parameter, Source
 
 PIECES = 6
+#: Hz between which a ringing is looked for, in steps by which a weakly damped one is still caught
+LOWEST, HIGHEST, CAPTURE = 16.0, 440.0, 1.13
 
 
 @sensor
@@ -37,9 +39,9 @@ def _undo(values: Values) -> Undo:
 
 
 def _scan(survey: Survey) -> Sequence[Values]:
-    return grid(
-        {}, frequency=(18.0, 27.0, 40.0, 60.0, 85.0, 120.0, 165.0, 230.0, 310.0, 420.0), damping_ratio=(0.05, 0.2)
-    )
+    steps = round(math.log(HIGHEST / LOWEST) / math.log(CAPTURE))
+    frequencies = [LOWEST * (HIGHEST / LOWEST) ** (i / steps) for i in range(steps + 1)]
+    return grid({}, frequency=frequencies, damping_ratio=(0.04, 0.2))
 
 
 force_gauge_resonance = Cause(
