@@ -32,6 +32,7 @@ from mocks.plant.physics import Physics
 
 #: columns of what `march` writes at each grid point
 COLUMNS = ("x", "drive_speed", "u", "v", "s", "w", "F", "T1", "T2", "friction", "acceleration")
+CHATTER = 30  # contacts closed within a grid interval, beyond which each takes some time
 LOCATING = 4  # secant steps that place a contact within a step
 
 
@@ -128,7 +129,7 @@ def march(t, y, z, contact, drive, dt, p_record, tables, size, out):  # type: ig
     work, report, half = np.zeros((7, SIZE)), np.zeros(REPORTS), np.zeros(4)
     at, dy = np.zeros(3), np.zeros(SIZE)
     for i in range(len(out)):
-        passed = 0.0
+        passed, closed = 0.0, 0
         while passed < dt * (1.0 - 1e-9):
             h, start = min(p.step, dt - passed), passed / dt
             step(y, t + passed, h, drive, i, start, dt, z, half, contact, p, tables, size, work, report)
@@ -140,7 +141,8 @@ def march(t, y, z, contact, drive, dt, p_record, tables, size, out):  # type: ig
                 share = locate(
                     which, share, y, t + passed, h, drive, i, start, dt, z, half, contact, p, tables, size, work, report
                 )
-                h = max(share * h, 1e-12)
+                closed += 1  # a contact that a sliding fibre opens and closes without end must not stop the clock
+                h = max(share * h, 1e-12 if closed < CHATTER else 0.02 * p.step)
                 contact[which] = True
             y[:] = work[0]
             z[:] = half

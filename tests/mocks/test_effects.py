@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from mocks import effects
+from mocks.battery.draw import battery
 from mocks.plant.motion import Motion, targets
 from mocks.plant.plant import GRID, Plant, Slice
 from mocks.plant.rig import Rig
@@ -312,3 +313,11 @@ def test_the_fibres_mass_needs_force_to_be_moved() -> None:
     run_heavy = taut("fibre-mass", mass=0.1).truth
     plain = run(TAUT).truth
     assert 0.05 < np.abs(run_heavy[:, F] - plain[:, F]).max() < 2.0
+
+
+def test_a_fibre_that_slides_while_it_is_caught_does_not_stop_the_plant() -> None:
+    """Its strand closes and opens without end there: found on this stand of the battery."""
+    case = battery(20272)[38]
+    motion = case.motions[3]
+    plant = Plant(case.stand.with_mass(motion.added_mass).believed, case.hidden)
+    assert np.isfinite(plant.follow(targets(motion, 7.5, GRID)).F).all()
