@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stand.clock.lines import Line, line_below, line_under
+from stand.clock.lines import line_under
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
@@ -148,8 +148,3 @@ def bounds_of(reads: Reads, frame_period: float, byte_time: float, length: int, 
     whole[-1] = False  # after the last read there may be no next byte: the stream has ended
     after = (ticks.time + left)[whole]
     return Bounds(early, before, late[whole], after, index[whole], True, ticks.lateness, ticks.doubt)
-
-
-def envelope(bounds: Bounds, period: float) -> Line:
-    """The line under the earliest arrivals."""
-    return line_below(bounds.early, bounds.before, period)

@@ -75,9 +75,8 @@ def _line(bounds: Bounds, period: float) -> tuple[Line, str, float | None]:
                 continue
             room = lacking + fuzz
             found = mean_between(points[0], points[1] - room, points[2], points[3] + room, period, spread)
-            sigma = float(np.hypot(found[1], fuzz + bounds.doubt)) if found is not None else np.inf
             if found is not None:  # a timer that keeps step with the frames leaves much open, and sigma says so
-                return found[0], "ticks", sigma
+                return found[0], "ticks", float(np.hypot(found[1], fuzz + bounds.doubt))
     return line_below(bounds.early, bounds.before, period), "envelope", None
 
 

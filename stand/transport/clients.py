@@ -11,7 +11,6 @@ from typing import Protocol
 
 import serial
 from pymodbus.client import ModbusSerialClient, ModbusTcpClient
-from pymodbus.exceptions import ConnectionException
 from pymodbus.framer import FramerBase
 from pymodbus.pdu import ModbusPDU
 
@@ -20,6 +19,7 @@ from stand.transport.heard import ROOM, age, ask_for_stamps
 from stand.transport.modbus import ObjectAnswer
 
 Trace = Callable[[bool, bytes], bytes]
+CLOSED = "the connection was closed"
 
 
 class Client(Protocol):
@@ -55,14 +55,13 @@ class PromptTcp(ModbusTcpClient):
         """What is there, waiting for its first byte; nothing after the timeout."""
         link = self.socket
         if link is None or link.fileno() < 0:  # closed meanwhile, from another thread
-            raise ConnectionException("closed")  # type: ignore[no-untyped-call]
+            raise ConnectionAbortedError(CLOSED)
         if not select.select([link], [], [], self.comm_params.timeout_connect)[0]:
             return b""
         data, notes, _, _ = link.recvmsg(size or 4096, ROOM)
         self.late = age(notes)
         if not data:
-            self.close()  # type: ignore[no-untyped-call]
-            raise ConnectionException("closed by the other side")  # type: ignore[no-untyped-call]
+            raise ConnectionResetError(CLOSED)
         return data
 
 

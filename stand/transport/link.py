@@ -16,7 +16,7 @@ from pymodbus.pdu import ModbusPDU
 
 from stand.config import RtuLink, TcpLink
 from stand.errors import DeviceError
-from stand.transport.clients import make_client
+from stand.transport.clients import CLOSED, make_client
 from stand.transport.modbus import check_answer
 from stand.transport.turns import Turns, turns_of
 
@@ -107,4 +107,4 @@ class ModbusLink:
     def _why(self, error: Exception) -> str:
         if isinstance(error, ModbusIOException):
             return f"nothing that can be read within {self.link.timeout:g} s"
-        return "the connection was closed" if isinstance(error, ConnectionException) else str(error)
+        return CLOSED if isinstance(error, ConnectionException) else str(error)

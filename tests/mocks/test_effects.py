@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from mocks import effects
-from mocks.battery.draw import battery
 from mocks.plant.motion import Motion, targets
 from mocks.plant.plant import GRID, Plant, Slice
 from mocks.plant.rig import Rig
@@ -114,27 +113,6 @@ def test_it_changes_what_is_recorded_and_nothing_at_its_null(name: str) -> None:
     assert np.isfinite(hidden.truth).all()
     clocks = Plant(hidden={name: {}}).world.clocks
     assert clocks or max(largest(name, "u") / 6e-6, largest(name, "F") / 0.12) > 1.0
-
-
-SIGNED = [e.name for e in effects.everything() if any(z.signed and not z.steady for z in e.sizes)]
-
-
-@pytest.mark.parametrize("name", SIGNED)
-def test_a_signed_effect_turns_round_with_its_sign(name: str) -> None:
-    size = next(z for z in effects.find(name).sizes if z.signed and not z.steady)
-    small = float(size.default) * 0.2 - 0.2 * size.null  # small enough to be nearly linear
-    plain = taut("")
-
-    def change(by: float) -> np.ndarray:
-        out = taut(name, **{size.name: size.null + by})
-        return np.concatenate([(out.x - plain.x) / 1e-6, (out.u - plain.u) / 6e-6, (out.F - plain.F) / 0.12])
-
-    one, other = change(small), change(-small)
-    if name == "clock-drift":  # instruments' clocks: nothing of it is in the plant's own signals
-        clocks = [Plant(hidden={name: {size.name: size.null + by}}).world.clocks for by in (small, -small)]
-        assert all(clocks[0][k] * clocks[1][k] < 0 for k in clocks[0])
-        return
-    assert one @ other < -0.5 * np.linalg.norm(one) * np.linalg.norm(other)
 
 
 @pytest.mark.parametrize("name", effects.names())
@@ -313,11 +291,3 @@ def test_the_fibres_mass_needs_force_to_be_moved() -> None:
     run_heavy = taut("fibre-mass", mass=0.1).truth
     plain = run(TAUT).truth
     assert 0.05 < np.abs(run_heavy[:, F] - plain[:, F]).max() < 2.0
-
-
-def test_a_fibre_that_slides_while_it_is_caught_does_not_stop_the_plant() -> None:
-    """Its strand closes and opens without end there: found on this stand of the battery."""
-    case = battery(20272)[38]
-    motion = case.motions[3]
-    plant = Plant(case.stand.with_mass(motion.added_mass).believed, case.hidden)
-    assert np.isfinite(plant.follow(targets(motion, 7.5, GRID)).F).all()

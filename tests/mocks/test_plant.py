@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from mocks.battery.draw import battery
 from mocks.plant import march
 from mocks.plant.motion import Motion, targets
 from mocks.plant.plant import GRID, Plant, Slice
@@ -207,3 +208,11 @@ def test_motions_are_smooth_and_begin_and_end_with_a_rest() -> None:
         assert np.abs(np.diff(path[:, 2])).max() / GRID < 410.0
         assert path[:, 0].max() == pytest.approx(motion.amplitude, abs=1e-9)
         assert math.isclose(motion.cycles(8.0), int(motion.cycles(8.0)))
+
+
+def test_a_fibre_that_slides_while_it_is_caught_does_not_stop_the_plant() -> None:
+    """Its strand closes and opens without end there: found on this stand of the battery."""
+    case = battery(20272)[38]
+    motion = case.motions[3]
+    plant = Plant(case.stand.with_mass(motion.added_mass).believed, case.hidden)
+    assert np.isfinite(plant.follow(targets(motion, 7.5, GRID)).F).all()

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from stand.setup import Setup, System
 from twin.causes._kind import Cause, Undo
-from twin.diagnosis.coordinates import Coordinate, base, of_cause, offsets
+from twin.diagnosis.coordinates import STATED, Coordinate, base, of_cause, offsets
 from twin.kernels import composed_slots as k
 
 Float = NDArray[np.float64]
@@ -54,6 +54,11 @@ class Composition:
     def zero(self) -> Float:
         """The setup as stated, and every cause at null."""
         return np.zeros(len(self.coordinates))
+
+    def unbent(self, z: Float) -> Float:
+        """z with the setup's values and the runs' zeros as stated; what a cause has freed stays where it is."""
+        bent = np.array([c.owner in STATED and np.isfinite(c.prior) for c in self.coordinates])
+        return np.where(bent, 0.0, z)
 
     def values(self, z: Float, cause: Cause) -> dict[str, float]:
         """A cause's parameters by name, SI."""

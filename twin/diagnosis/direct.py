@@ -30,9 +30,7 @@ def sizes(cause: Cause, reach: Survey, stated: float) -> Iterator[Mapping[str, f
     """
     first = cause.parameters[0]
     if cause.base is not None:
-        for share in FAR:
-            if stated > 0:
-                yield {first.name: (share - 1.0) * stated}
+        yield from ({first.name: (share - 1.0) * stated} for share in FAR if stated > 0)
         return
     grows = first.name not in ("position", "level", "friction", "frequency", "width")
     for values in cause.trials(reach):

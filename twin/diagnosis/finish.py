@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from twin.diagnosis.coordinates import STATED
 from twin.diagnosis.fit import FINE, Fitted, fit
 from twin.diagnosis.misfit import error, ranked
 from twin.diagnosis.problem import Problem
 
-#: squared error in the sensors' noise below which there is nothing to finish, and iterations
+#: squared error in the sensors' noise below which there is nothing to finish, and iterations of a long fit
 NEARLY, LONG = 1.015, 12
 
 
@@ -21,9 +18,8 @@ def finished(problem: Problem, fitted: Fitted) -> Fitted:
     if error(problem, fitted.residual).max() < NEARLY:
         return fitted
     model = fitted.model
-    bent = np.array([c.owner in STATED and np.isfinite(c.prior) for c in model.coordinates])
     ends = []
-    for z, starts in ((fitted.z, fitted.starts), (np.where(bent, 0.0, fitted.z), None)):
+    for z, starts in ((fitted.z, fitted.starts), (model.unbent(fitted.z), None)):
         problem.forget_states()
         ends.append(fit(problem, model, z, starts, iterations=LONG, tolerance=FINE))
     return ranked(problem, ends)[0]

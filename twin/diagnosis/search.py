@@ -12,9 +12,9 @@ from stand.setup import System
 from twin.causes._kind import Cause
 from twin.diagnosis.clipped import GUIDE_END, PASSED
 from twin.diagnosis.composition import Composition
-from twin.diagnosis.coordinates import NO_FRICTION, STATED
+from twin.diagnosis.coordinates import NO_FRICTION
 from twin.diagnosis.direct import screen
-from twin.diagnosis.finish import finished
+from twin.diagnosis.finish import LONG, finished
 from twin.diagnosis.fit import Fitted, Linear, carried, fit, slopes
 from twin.diagnosis.misfit import error, gained, misses, ranked
 from twin.diagnosis.precision import covariance
@@ -26,7 +26,7 @@ Float = NDArray[np.float64]
 Index = NDArray[np.intp]
 SHORT_LIST = 7
 FINALISTS = 4
-QUICK, LONG = 3, 12
+QUICK = 3
 MOST = 4
 NEEDED = 0.012
 NOISE = 1.12
@@ -165,8 +165,7 @@ def _begin_fit(problem: Problem, fitted: Fitted, scored: Scored, known: Linear |
         begun = carried(known, fitted.model, model)
         return fit(problem, model, z, fitted.starts, iterations=QUICK, known=begun)
     if not fitted.model.causes:
-        bent = np.array([c.owner in STATED and np.isfinite(c.prior) for c in model.coordinates])
-        z = np.where(bent, 0.0, z)
+        z = model.unbent(z)
     settled = fit(problem, model, z, iterations=1, fixed=np.ones(len(z), bool))
     return fit(problem, model, z, settled.starts, iterations=QUICK + 1)
 
@@ -205,7 +204,7 @@ def forward(search: Search, causes: Sequence[Cause], progress: Callable[[str, fl
         if not tried:
             break
         done = finished(problem, tried[0])
-        search.current = done if sound(problem, search.current, done) else tried[0]
+        search.current = done if done is tried[0] or sound(problem, search.current, done) else tried[0]
         search.ladder.append(search.current)
 
 
