@@ -102,6 +102,14 @@ class _Channel:
         return cubic, self.flags[nearest]
 
 
+def nominal_rate(config: DriveConfig | GaugeConfig) -> float:
+    """Samples that the instrument takes in a second by its own clock, Hz: a drive's ring has one of its own."""
+    if isinstance(config, DriveConfig):
+        trace = load_profile(config.profile).trace
+        return float(trace.clock_hz if trace.kind == "ring" else config.rate)
+    return float(config.rate)
+
+
 class LiveAligner:
     """Blocks in, grid samples out. One for each run; not for several threads at once.
 
@@ -110,14 +118,9 @@ class LiveAligner:
 
     def __init__(self, stand: Stand, origin: float) -> None:
         self.origin, self.next = origin, 0
-        profile = load_profile(stand.drive.profile)
         self._channels: dict[str, _Channel] = {}
         for name, config in stand.instruments.items():
-            rate = (
-                profile.trace.clock_hz
-                if isinstance(config, DriveConfig) and profile.trace.kind == "ring"
-                else config.rate
-            )
+            rate = nominal_rate(config)
             self._channels[name] = _Channel(config, 1 / rate, np.empty(0), np.empty(0, np.uint8))
         self._scale = {n: c.scale for n, c in stand.instruments.items() if isinstance(c, GaugeConfig)}
         self._zeros: tuple[float, float] | None = None

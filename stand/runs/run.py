@@ -16,6 +16,7 @@ from stand.runs.checks import check_rest_force, check_state, go_to_rest, identif
 from stand.runs.messages import Finished, Outcome, Phase, Progress
 from stand.runs.order import RunOrder
 from stand.runs.priority import ahead
+from stand.runs.rehearsal import rehearse
 from stand.runs.rig import Rig
 from stand.runs.rules import guide_rule, preparing_rules, standing_rules
 from stand.runs.streams import stream_specs
@@ -61,6 +62,7 @@ def perform(rig: Rig, order: RunOrder, path: Path) -> Finished:
     stand = rig.stand
     motion = plan(order.excitation, stand.limits, rest_travel=stand.drive.rest_travel)
     announce(rig, "connect")
+    rehearse(stand)
     rig.connect()
     recorder = _recorder(path, _file_plan(stand, order, _check(rig), motion.duration))
     try:
