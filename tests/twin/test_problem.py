@@ -19,8 +19,8 @@ from twin.diagnosis.audit import audit_all
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.direct import screen
 from twin.diagnosis.engine import known
-from twin.diagnosis.finish import finished
-from twin.diagnosis.fit import fit
+from twin.diagnosis.finish import finished, regained
+from twin.diagnosis.fit import fit, residual
 from twin.diagnosis.misfit import misses
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.run import choose, prepare
@@ -108,3 +108,16 @@ def test_a_fit_that_calibration_left_bent_is_finished_at_the_true_values(tmp_pat
     done = finished(problem, fit(problem, model, z, iterations=2))
     assert model.values(done.z, cause)["coefficient"] == pytest.approx(8.4, rel=0.02)
     assert abs(done.z[model.index["base", "split"]]) < 2.0
+
+
+def test_a_window_gone_astray_is_started_once_more(tmp_path: Path) -> None:
+    problem = _exact(tmp_path, {}, (THROWN,))
+    model = Composition(tuple(r.setup for r in problem.runs), ())
+    fitted = fit(problem, model, model.zero(), iterations=4, fixed=np.ones(len(model.zero()), bool))
+    starts = fitted.starts.copy()
+    starts[3] += (0.0, 0.0, 8.0, 8.0)
+    stray = replace(fitted, starts=starts, residual=residual(problem, model, fitted.z, starts))
+    assert misses(problem, stray.residual)[3].max() > 3.0
+    found = regained(problem, stray)
+    assert misses(problem, found.residual)[3].max() < 1.1 * misses(problem, fitted.residual)[3].max()
+    assert regained(problem, fitted) is fitted, "nothing was astray"

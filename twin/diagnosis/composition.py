@@ -16,7 +16,7 @@ from twin.diagnosis.coordinates import STATED, Coordinate, base, of_cause, offse
 from twin.kernels import composed_slots as k
 
 Float = NDArray[np.float64]
-WIDTH = 40
+WIDTH = 96
 _SYSTEM = {System.WFPD: k.WFPD, System.WF: k.WF, System.LINEAR_DRIVE: k.AXIS}
 
 

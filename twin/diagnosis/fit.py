@@ -19,6 +19,8 @@ STEP = 0.02
 START_STEP = 0.1
 FAR = 8.0
 BASE_EVERY, BEGIN_EVERY = 4, 2
+#: owners of coordinates whose columns change slowly: base values, and a learned term's many heights
+SLOW = (*STATED, "unknown")
 #: relative gain in cost at which a fit ends that something hangs on: about one in chi^2
 FINE = 1e-5
 
@@ -116,7 +118,7 @@ def linearise(
         own = np.array([column(problem.predict(model, z, _moved(starts, a)), START_STEP) for a in range(4)])
     else:
         own = known.starts * again
-    renew = free if known is None or base else free & np.array([c.owner not in STATED for c in model.coordinates])
+    renew = free if known is None or base else free & np.array([c.owner not in SLOW for c in model.coordinates])
     columns = _globals(problem, fitted, renew, column)
     if known is not None:
         kept = free & ~renew

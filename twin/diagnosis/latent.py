@@ -24,7 +24,7 @@ from twin.parameter import Parameter, Source
 
 Float = NDArray[np.floating[Any]]
 SPACING = 8
-KNOTS = (8, 16, 28)
+KNOTS = (8, 16, 28, 50, 80)
 PRICE = 14.0
 PLACES: Mapping[str, tuple[str, Any, float, str]] = {
     "guide": ("after", kernels.guide_hat, 0.5, "N"),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twin.causes._kind import Cause
+from twin.diagnosis.finish import ended
 from twin.diagnosis.fit import Fitted, fit, loss, scale, slopes
 from twin.diagnosis.found import Rival
 from twin.diagnosis.misfit import error, gained, prior_price
@@ -27,6 +28,8 @@ ALIKE = 40.0
 MOST = 4
 SWAPS = 3
 CLEARLY = 30.0
+#: share by which a rival's squared error may exceed the final model's, for its fit to be taken to its end
+NEAR = 0.05
 
 
 @dataclass(frozen=True)
@@ -84,11 +87,13 @@ def _merged(search: Search, ranks: Sequence[Standing]) -> Fitted | None:
 
 def _standing(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> Standing:
     problem, final = search.problem, search.current
-    spread = scale(problem, final.residual)
-    here = loss(final.residual, spread) + prior_price(final)
     rivals = _candidates(search, cause, catalogue)
     promises = search.work.each(_instead, problem, [_place(search, cause, rival) for rival in rivals])
     fits = {rival.name: promise() for rival, promise in zip(rivals, promises, strict=True)}
+    if any(_near(problem, final, f) for f in fits.values()):
+        final = search.end_current()
+    spread = scale(problem, final.residual)
+    here = loss(final.residual, spread) + prior_price(final)
     behind = {n: loss(f.residual, spread) + prior_price(f) - here for n, f in fits.items()}
     after = error(problem, final.residual)
     misfit = {n: float(np.max((error(problem, f.residual) - after) / _left(after))) for n, f in fits.items()}
@@ -146,13 +151,23 @@ def _instead(problem: Problem, final: Fitted, cause: Cause, rival: Cause, before
     trial.
     """
     if before is not None:
-        return fit(problem, before.model, before.z, before.starts, iterations=6)
+        return _matched(problem, final, fit(problem, before.model, before.z, before.starts, iterations=6))
     less = without(problem, final, cause, iterations=3)
     scored = score(problem, less, [rival], slopes(problem, less))[0]
     if not scored.trials:
         return less
     model, z = begin(less, scored)
-    return fit(problem, model, z, less.starts, iterations=10)
+    return _matched(problem, final, fit(problem, model, z, less.starts, iterations=10))
+
+
+def _matched(problem: Problem, final: Fitted, rival: Fitted) -> Fitted:
+    """A rival that comes near is taken to its end as the final model was: hundreds in chi^2 can be left in between."""
+    return ended(problem, rival) if _near(problem, final, rival) else rival
+
+
+def _near(problem: Problem, final: Fitted, rival: Fitted) -> bool:
+    beyond = error(problem, rival.residual) - (1.0 + NEAR) * error(problem, final.residual)
+    return bool(beyond.max() <= 0.0)
 
 
 def tried(search: Search, ranks: Sequence[Standing]) -> tuple[Rival, ...]:

@@ -14,7 +14,7 @@ from twin.diagnosis.clipped import GUIDE_END, PASSED
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.coordinates import NO_FRICTION
 from twin.diagnosis.direct import screen
-from twin.diagnosis.finish import LONG, finished
+from twin.diagnosis.finish import LONG, ended, finished, regained
 from twin.diagnosis.fit import Fitted, Linear, carried, fit, slopes
 from twin.diagnosis.misfit import error, gained, misses, ranked
 from twin.diagnosis.precision import covariance
@@ -34,7 +34,7 @@ STRONG, LEFT = 0.9, 1.04
 #: first-order leaders that are tried before those
 ROOM = 3
 #: squared error in the sensors' noise, and share of the base's, that two causes leave only where neither is true
-HOPELESS, LITTLE = 30.0, 0.3
+HOPELESS, LITTLE = 30.0, 0.03
 LARGE = 25.0
 DOUBTFUL = 1.4
 FEW = 2
@@ -57,6 +57,15 @@ class Search:
     refits: list[Fitted] = field(default_factory=list)
     ladder: list[Fitted] = field(default_factory=list)
     less: dict[tuple[frozenset[str], str], Fitted] = field(default_factory=dict)
+    end: Fitted | None = None
+
+    def end_current(self) -> Fitted:
+        """The current fit gone on with to its end, once; the ladder's rung with it."""
+        if self.end is not self.current:
+            rung = self.ladder[-1] is self.current
+            self.current = self.end = ended(self.problem, self.current)
+            self.ladder[-1] = self.end if rung else self.ladder[-1]
+        return self.current
 
     def lacking(self, causes: Sequence[Cause]) -> list[Fitted]:
         """The current fit without each of these of its causes; fitted once."""
@@ -110,7 +119,8 @@ def try_causes(
     begun: list[Fitted] = []
     settled: set[str] | None = None
     keep = telling(problem, fitted)
-    few, part, order = problem.part(keep), _part(fitted, keep), _interleaved(scored, direct)
+    few, order = problem.part(keep), _interleaved(scored, direct)
+    part = replace(fitted, starts=fitted.starts[keep], residual=fitted.residual[keep])
     known = linear.part(keep)
     promises = work.each(_begin_fit, few, [(part, s, None if plain else known) for s, plain in order])
     for (s, plain), promise in zip(order, promises, strict=True):
@@ -140,10 +150,6 @@ def telling(problem: Problem, fitted: Fitted, share: int = 2) -> Index:
     return np.union1d(worst, chosen)
 
 
-def _part(fitted: Fitted, keep: Index) -> Fitted:
-    return replace(fitted, starts=fitted.starts[keep], residual=fitted.residual[keep])
-
-
 def _whole(problem: Problem, before: Fitted, part: Fitted, keep: Index) -> Fitted:
     """A fit on some windows as one on all: the others' starts are settled by themselves."""
     starts = before.starts.copy()
@@ -171,7 +177,7 @@ def _begin_fit(problem: Problem, fitted: Fitted, scored: Scored, known: Linear |
 
 
 def _long_fit(problem: Problem, begun: Fitted) -> Fitted:
-    return fit(problem, begun.model, begun.z, begun.starts, iterations=LONG)
+    return regained(problem, fit(problem, begun.model, begun.z, begun.starts, iterations=LONG))
 
 
 def _last(fitted: Fitted) -> str:

@@ -15,6 +15,8 @@ from twin.diagnosis.search import Search
 
 ENOUGH = 1.10
 SHARE = 0.10
+#: squared error in the noise at which, with nothing named, something must be said however little a term explains
+WRONG = 3.0
 ALIKE = 0.8
 POSITIONS = ("weight_position", "drive_position", "pulley_angle")
 SPEEDS = ("weight_velocity", "drive_velocity")
@@ -36,7 +38,9 @@ def look(search: Search) -> Unknown | None:
     problem, final = search.problem, search.current
     if error(problem, final.residual, wild=0.0).max() < ENOUGH:  # a single wild window is no structure
         return None
-    candidates = [c for c in (_best(problem, f) for f in _beginnings(search)) if c is not None]
+    bare = not final.model.causes
+    least = 0.0 if bare and error(problem, final.residual).max() > WRONG else SHARE
+    candidates = [c for c in (_best(problem, f, least) for f in _beginnings(search)) if c is not None]
     if not candidates:
         return None
     return _choose(search, candidates)
@@ -47,11 +51,11 @@ def _beginnings(search: Search) -> list[Fitted]:
     return [search.current] if not search.current.model.causes else [search.base, search.current]
 
 
-def _best(problem: Problem, fitted: Fitted) -> Unknown | None:
+def _best(problem: Problem, fitted: Fitted, least: float) -> Unknown | None:
     found = terms(problem, fitted)
     spread = scale(problem, fitted.residual)
     weighted = float(np.sum((fitted.residual / spread) ** 2 * weigh(fitted.residual, spread)))
-    if not found or found[0].gain < SHARE * weighted:
+    if not found or found[0].gain < least * weighted:
         return None
     term = found[0]
     alike = [t.variable for t in found if t.gain > ALIKE * term.gain]
