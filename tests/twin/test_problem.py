@@ -75,9 +75,9 @@ def test_with_a_causes_true_values_windows_are_predicted_to_the_noise(name: str,
     for run in range(2):
         mine = np.flatnonzero(problem.windows.run == run)
         assert len(mine) >= 8
-        each = misses(problem, fitted.residual)[mine]  # one sample at a snatch is enough to spoil a window's mean
-        assert np.quantile(each, 0.75, axis=0).max() < 1.3
-        assert np.sqrt(np.mean(fitted.starts[mine] ** 2)) < 2.5
+        each = misses(problem, fitted.residual)[mine]
+        assert np.quantile(each, 0.75, axis=0).max() < 1.3  # one sample at a snatch is enough to spoil a window's mean
+        assert np.sqrt(np.mean(fitted.starts[mine] ** 2)) < 0.72  # 0.78 to 1.2 where a slack fibre's rim is still
 
 
 def test_a_base_value_far_from_what_is_stated_leads_the_direct_screen(tmp_path: Path) -> None:

@@ -87,7 +87,8 @@ class Cause:
     acts_on: verdict.md's word. parameters: value is the null (no effect) or, after the first, where a search may
         begin; uncertainty is a size that would be typical. base: the setup's value that this cause frees, if it does.
     before, after: hooks of the dynamics, at their places in `composed_slots`. senses: hook on the gauges' signals.
-        moves: hook on the drive's recorded position. states: how many states of its own it integrates.
+        moves: hook on the drive's recorded position. states: how many states of its own it has. slides: the rim may
+        turn under the fibre.
     pack: (setup, values, first own state) -> the hooks' constants. undo: how its instrument is inverted at a start.
     scan: what is nonlinear is tried at these values. rivals: causes that look alike. late: order among sensor hooks.
     variants: of a cause of one among several signals or instruments; each has that `choice` under `key`. rest_free:
@@ -106,6 +107,7 @@ class Cause:
     senses: Any = None
     moves: Any = None
     states: int = 0
+    slides: bool = False
     order: int = 0
     pack: Callable[[Setup, Values, int], Sequence[float]] = plain
     undo: Callable[[Values], Undo] = no_undo

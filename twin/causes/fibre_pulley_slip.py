@@ -53,6 +53,7 @@ fibre_pulley_slip = Cause(
     source=Source("Euler", 1769, "capstan equation"),
     before=_slide,
     states=1,
+    slides=True,
     order=9,
     pack=_pack,
     scan=_scan,

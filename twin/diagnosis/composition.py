@@ -160,6 +160,11 @@ class Composition:
         return own
 
     @property
+    def slides(self) -> bool:
+        """Whether the fibre may slide on the rim."""
+        return any(c.slides for c in self.causes)
+
+    @property
     def own_states(self) -> int:
         """How many states the causes have of their own."""
         return sum(c.states for c in self.causes)

@@ -19,8 +19,8 @@ STEP = 0.02
 START_STEP = 0.1
 FAR = 8.0
 BASE_EVERY, BEGIN_EVERY = 4, 2
-#: owners of coordinates whose columns change slowly: base values, and a learned term's many heights
-SLOW = (*STATED, "unknown")
+#: heights of a learned term beyond which their columns are differenced as seldom as base values'
+MANY = 30
 #: relative gain in cost at which a fit ends that something hangs on: about one in chi^2
 FINE = 1e-5
 
@@ -118,7 +118,7 @@ def linearise(
         own = np.array([column(problem.predict(model, z, _moved(starts, a)), START_STEP) for a in range(4)])
     else:
         own = known.starts * again
-    renew = free if known is None or base else free & np.array([c.owner not in SLOW for c in model.coordinates])
+    renew = free if known is None or base else free & _quick(model)
     columns = _globals(problem, fitted, renew, column)
     if known is not None:
         kept = free & ~renew
@@ -126,6 +126,13 @@ def linearise(
     weighted = (fitted.residual * root).reshape(flat)
     prior = np.array([1.0 / c.prior**2 for c in model.coordinates])
     return Linear(columns, own, weighted, prior, np.maximum(root.reshape(flat), 1e-30))
+
+
+def _quick(model: Composition) -> NDArray[np.bool_]:
+    """The coordinates whose columns change from step to step."""
+    owners = [c.owner for c in model.coordinates]
+    slow = (*STATED, "unknown") if owners.count("unknown") > MANY else STATED
+    return np.array([owner not in slow for owner in owners])
 
 
 def slopes(problem: Problem, fitted: Fitted) -> Linear:

@@ -24,7 +24,9 @@ from twin.parameter import Parameter, Source
 
 Float = NDArray[np.floating[Any]]
 SPACING = 8
-KNOTS = (8, 16, 28, 50, 80)
+KNOTS, FINER = (8, 16, 28), (50, 80)
+#: along which a term may be as fine as the pitch of a screw or of a rack
+ALONG = frozenset({"weight_position", "drive_position", "pulley_angle"})
 PRICE = 14.0
 PLACES: Mapping[str, tuple[str, Any, float, str]] = {
     "guide": ("after", kernels.guide_hat, 0.5, "N"),
@@ -155,7 +157,7 @@ def _function(
     best = Term(place, variable, signed, -np.inf, np.zeros(0), np.zeros(0), np.zeros(0))
     if not high - low > 1e-9 * max(abs(low), abs(high), 1e-3):
         return best
-    for count in KNOTS:
+    for count in (*KNOTS, *FINER) if variable in ALONG else KNOTS:
         knots = np.linspace(low, high, count)
         phi = _basis(v, knots)
         if signed:

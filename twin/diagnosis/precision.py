@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from twin.diagnosis.coordinates import STATED
 from twin.diagnosis.fit import Fitted, reduce, slopes
 from twin.diagnosis.problem import Problem
 
@@ -29,7 +30,9 @@ def covariance(problem: Problem, fitted: Fitted) -> tuple[Float, Float]:
     meat = pieces.T @ pieces + np.diag(linear.prior)
     low = np.array([c.low for c in fitted.model.coordinates])
     high = np.array([c.high for c in fitted.model.coordinates])
-    inside = (fitted.z > low + 1e-9) & (fitted.z < high - 1e-9) & (np.diag(reduced.matrix) > 1e-12)
+    base = np.array([c.owner in STATED for c in fitted.model.coordinates])  # at its limit it is still uncertain
+    inside = base | ((fitted.z > low + 1e-9) & (fitted.z < high - 1e-9))
+    inside &= np.diag(reduced.matrix) > 1e-12
     bread = np.zeros_like(meat)
     bread[np.ix_(inside, inside)] = np.linalg.pinv(reduced.matrix[np.ix_(inside, inside)], rcond=1e-13)
     sandwich = bread @ meat @ bread

@@ -18,13 +18,14 @@ from twin.diagnosis.coordinates import STATED
 from twin.diagnosis.measured import measured_path
 from twin.diagnosis.run import LENGTH, REST, Run, Windows, half
 from twin.diagnosis.shared import shared, spread
-from twin.diagnosis.smooth import curvature, gains, polynomial
+from twin.diagnosis.smooth import ahead, curvature, gains, polynomial
 from twin.kernels import composed, composed_sense
 from twin.kernels import composed_slots as k
 
 Float = NDArray[np.float64]
 Index = NDArray[np.int64]
 T = TypeVar("T")
+DEGREE = 4
 FINE = 5e-4  # s between samples at which local polynomials follow any motion of a stand
 #: a start's rim: displaced so far to feel its stiffness, moved no farther at once nor more often, and settled, m
 NUDGE, FARTHEST, BALANCED, SETTLED = 2e-6, 1e-3, 5, 1e-9
@@ -74,7 +75,7 @@ class Problem:
         self.spread = np.empty((len(w), 4))
         for r, run in enumerate(self.runs):
             mine = w.run == r
-            value, rate = gains(half(self.dt), 3, self.dt)
+            value, rate = gains(half(self.dt), DEGREE, self.dt)
             coarse = max(1.0, (self.dt / FINE) ** 2)
             self.spread[mine] = (
                 max(run.noise_u * value, 3e-7) * coarse,
@@ -177,14 +178,16 @@ class Problem:
 
         def fill() -> Float:
             runs = range(len(self.runs))
-            shared([partial(self._history, r, own, constants, drive, undo, before, after) for r in runs])
+            shared(
+                [partial(self._history, not model.slides, r, own, constants, drive, undo, before, after) for r in runs]
+            )
             return own
 
         values = tuple(v for c in model.causes for v in model.values(z, c).values() if c.base is None)
         return self._keep(("own", tuple(c.name for c in model.causes), values), 6, fill)
 
     def _history(
-        self, r: int, own: Float, constants: Float, drive: Float, undo: Undo, before: Hooks, after: Hooks
+        self, coasts: bool, r: int, own: Float, constants: Float, drive: Float, undo: Undo, before: Hooks, after: Hooks
     ) -> None:
         run, mine = self.runs[r], self.windows.run == r
         if not mine.any():
@@ -195,7 +198,7 @@ class Problem:
         out = np.empty((last, k.STATES))
         composed.history(
             path, force, ends, constants[r], np.zeros((1, k.STATES)), self.dt,
-            before.address, before.p, after.address, after.p, out,
+            before.address, before.p, after.address, after.p, int(coasts), out,
         )  # fmt: skip
         own[mine] = out[self.windows.first[mine]]
 
@@ -255,7 +258,7 @@ class Problem:
         before, after = self._cubic(channel, places), self._cubic(channel, places + 1)
         value, rate, second = (
             (1.0 - share) * a + share * b
-            for a, b in zip(_ahead(before, share * self.dt), _ahead(after, (share - 1.0) * self.dt), strict=True)
+            for a, b in zip(ahead(before, share * self.dt), ahead(after, (share - 1.0) * self.dt), strict=True)
         )
         return value + lag * rate, rate + lag * second
 
@@ -271,7 +274,7 @@ class Problem:
             raw = run.raw_u if channel == 0 else run.raw_F
             reach = half(self.dt)
             places = np.clip(w.first[mine] + shift[mine], 2 * reach, len(raw) - 2 * reach - 1)
-            value[mine], rate[mine], _ = polynomial(raw, places, reach, 3, self.dt)
+            value[mine], rate[mine], _ = polynomial(raw, places, reach, DEGREE, self.dt)
             second[mine] = curvature(raw, places, 2 * reach, self.dt)
         return value, rate, second
 
@@ -289,12 +292,6 @@ class Problem:
             ),
         )  # fmt: skip
         return out, status
-
-
-def _ahead(cubic: tuple[Float, Float, Float], time: Float) -> tuple[Float, Float, Float]:
-    """What a cubic tells `time` s further on."""
-    value, rate, second = cubic
-    return value + time * rate + 0.5 * time**2 * second, rate + time * second, second
 
 
 __all__ = ["Problem"]

@@ -94,3 +94,9 @@ def gains(half: int, degree: int, dt: float) -> tuple[float, float]:
     basis = np.vander(np.arange(-half, half + 1) / half, degree + 1, increasing=True)
     solve = np.linalg.pinv(basis)
     return float(np.linalg.norm(solve[0])), float(np.linalg.norm(solve[1]) / (half * dt))
+
+
+def ahead(cubic: tuple[Float, Float, Float], time: Float) -> tuple[Float, Float, Float]:
+    """What a cubic tells `time` s further on."""
+    value, rate, second = cubic
+    return value + time * rate + 0.5 * time**2 * second, rate + time * second, second

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from twin.kernels import composed_slots as k
@@ -61,14 +63,17 @@ def windows(starts, own, constants, run, first, length, drive, dt, before, bp, a
             status[j] = advance(y, q, c, row, (first[j] + i) * dt, dt, before, bp, after, ap, mode, end)
 
 
-@compiled(f"void({_M},{_V},{_M},{_V},{_M},float64,{_HOOKS},{_M})")
-def history(path, force, drive, c, own, dt, before, bp, after, ap, out):
-    """The causes' own states along a measured run: path [n, 4] u, v, s, w; own [1, 8] at its start; out [n, 8].
+@compiled(f"void({_M},{_V},{_M},{_V},{_M},float64,{_HOOKS},int64,{_M})")
+def history(path, force, drive, c, own, dt, before, bp, after, ap, coasts, out):
+    """The causes' own states along a measured run: path [n, 4] u, v, s, w; own [1, 8] at its start; coasts: 0 where the
+    fibre may slide on the rim, which then is where both strands pull alike; out [n, 8].
 
-    The midpoint rule, its half step from the slope before; as many steps a sample as the hooks' decay asks for.
-    Tensions are what the strands give on that path; the drive strand's is force [n], N, where that is not negative.
+    The midpoint rule, its half step from the slope before; as many steps a sample as the rim and the hooks' decay ask
+    for. The weight and the drive's end are where they were measured; the rim, which coasts on while the drive strand is
+    slack and is held back by the weight's, moves by the strands' pulls from where the path begins. Tensions are what
+    the strands give; for the hooks the drive strand's is force [n], N, where that is not negative.
     """
-    n, count = len(path), int(c[k.K_OWN])
+    n, count, pulley = len(path), int(c[k.K_OWN]), c[k.K_SYSTEM] == k.WFPD and coasts != 0
     y, q, mode = np.zeros(FULL), np.zeros(k.SIZE), np.ones(2, np.int64)
     state, slope = own[0].copy(), np.zeros(k.STATES)
     least = 1 if dt < 0.6e-3 else 2
@@ -76,16 +81,22 @@ def history(path, force, drive, c, own, dt, before, bp, after, ap, out):
     y[:4] = path[0]
     y[4:DV] = state
     settle(y, q, c, drive[0, 0], drive[0, 1], 0.0, before, bp, after, ap, mode)
+    s, w, push = path[0, 2], path[0, 3], 0.0
     for i in range(n):
         out[i] = state
         if i == n - 1:
             break
-        pieces = min(max(least, int(np.ceil(dt * q[k.STIFF] / _DECAY))), _PIECES)
+        rate = q[k.STIFF]
+        if pulley:
+            rate = max(rate, (q[k.B1] + q[k.B2]) / q[k.RIM], math.sqrt((q[k.C1] + q[k.C2]) / q[k.RIM]))
+        pieces = min(max(least, int(np.ceil(dt * rate / _DECAY))), _PIECES)
         h = dt / pieces
         for piece in range(pieces):
             theta = (piece + 0.5) / pieces
             for m in range(4):
                 y[m] = path[i, m] + theta * (path[i + 1, m] - path[i, m])
+            if pulley:
+                y[2], y[3] = s + 0.5 * h * w, w + 0.5 * h * push
             x = drive[i, 0] + theta * (drive[i + 1, 0] - drive[i, 0])
             xd = drive[i, 1] + theta * (drive[i + 1, 1] - drive[i, 1])
             told = -1.0
@@ -96,11 +107,13 @@ def history(path, force, drive, c, own, dt, before, bp, after, ap, out):
             on1, on2 = True, True
             for _ in range(2):  # once more where a strand turns out to be slack
                 taut1, taut2 = on1, on2
-                _, _, _, on1, on2 = evaluate(
+                _, push, _, on1, on2 = evaluate(
                     y[0], y[1], y[2], y[3], x, xd, (i + theta) * dt, y, q, c, before, bp, after, ap, taut1, taut2, told
                 )
                 if on1 and on2:
                     break
+            s += h * y[3]
+            w += h * push
             for m in range(count):
                 slope[m] = q[k.RATE + m]
                 state[m] += h * slope[m]

@@ -34,7 +34,7 @@ def evaluate(u, v, s, w, x, xd, time, own, q, c, before, bp, after, ap, taut1, t
     """v', w', the drive strand's tension, and whether each strand is taut there by itself: d > 0 and T > 0.
 
     own: the causes' states at 4..; their rates are left in q[RATE..]. The tensions are what taut1 and taut2 say;
-    told: the drive strand's as it was measured, N, where it is not negative.
+    told: the drive strand's as it was measured, N, where it is not negative, for the hooks; the rim feels the strands.
     """
     system = c[k.K_SYSTEM]
     hooked = before.shape[0] + after.shape[0] > 0
@@ -57,7 +57,8 @@ def evaluate(u, v, s, w, x, xd, time, own, q, c, before, bp, after, ap, taut1, t
         d1, dd1, d2, dd2 = q[k.D1], q[k.DD1], q[k.D2], q[k.DD2]
     pull1, pull2 = c1 * d1 + b1 * dd1 + e1, c2 * d2 + b2 * dd2 + e2
     t1 = pull1 if taut1 else 0.0
-    t2 = told if told >= 0.0 else (pull2 if taut2 else 0.0)
+    felt = pull2 if taut2 else 0.0
+    t2 = told if told >= 0.0 else felt
     if system == k.WF:
         t2 = t1
     elif system == k.AXIS:
@@ -76,7 +77,7 @@ def evaluate(u, v, s, w, x, xd, time, own, q, c, before, bp, after, ap, taut1, t
     q[k.G] += q[k.FRICTION] * q[k.SMOOTH]
     if system == k.WFPD:
         weight = q[k.T1] - q[k.WEIGHT] - q[k.G]
-        rim = q[k.T2] - q[k.T1] * q[k.GAMMA1] - q[k.R] + q[k.PULL]
+        rim = q[k.T2] + (felt - t2) - q[k.T1] * q[k.GAMMA1] - q[k.R] + q[k.PULL]
         shared = q[k.SHARED]
         whole = 1.0 / (q[k.MASS] * q[k.RIM] - shared * shared)
         return (q[k.RIM] * weight - shared * rim) * whole, (q[k.MASS] * rim - shared * weight) * whole, t2, on1, on2
