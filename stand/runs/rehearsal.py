@@ -15,8 +15,8 @@ from stand.clock.aim import FIRST, Aim
 from stand.clock.live import nominal_rate
 from stand.config import Stand
 
-#: s of made-up samples, and of each read
-LENGTH, READ = 0.9, 0.01
+#: s of made-up samples, long enough for the gauges' rates to be fitted, and of each read
+LENGTH, READ = 2.5, 0.01
 
 
 def rehearse(stand: Stand) -> int:
@@ -28,10 +28,10 @@ def rehearse(stand: Stand) -> int:
         asked = poll * aim.period
         aim.polled(int(asked / tick + 0.5), asked, asked + 5e-4 + 1e-5 * (poll % 7))
     aim.next(LENGTH)
+    rates = {name: nominal_rate(config) for name, config in stand.instruments.items()}
     for read in range(round(LENGTH / READ)):
-        begin = read * READ
-        for name, config in stand.instruments.items():
-            told += _push(aligner, name, begin, nominal_rate(config))
+        for name, rate in rates.items():
+            told += _push(aligner, name, read * READ, rate)
     return told
 
 
