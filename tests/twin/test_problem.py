@@ -51,6 +51,8 @@ WITH_MEMORY = {
     "fibre-viscoelasticity": {"stiffness": 8000.0, "time_constant": 0.15},
     "fibre-hysteresis": {"stiffness": 6000.0, "yield_elongation": 0.0004},
     "drive-compliance": {"compliance": 6e-6},
+    "pulley-bearing-friction": {"coefficient": 0.03},
+    "fibre-pulley-slip": {"friction": 0.3},
 }
 
 

@@ -11,9 +11,11 @@ from stand.recording import Recording, read_recording
 from twin.diagnosis import Options, diagnose
 from twin.diagnosis.audit import audit_all
 from twin.diagnosis.latent import terms
+from twin.diagnosis.misfit import error
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.run import choose, prepare
 from twin.diagnosis.search import calibrate
+from twin.diagnosis.unknown import refitted
 
 
 def _runs(folder: Path, hidden: Hidden) -> list[Recording]:
@@ -29,9 +31,14 @@ def test_a_screw_of_fine_pitch_is_seen_where_it_acts(tmp_path: Path) -> None:
     hidden = {"drive-pitch-error": {"amplitude": 1.2e-4, "pitch": 0.0052, "phase": 0.4}}
     runs = tuple(prepare(r) for r in audit_all(_runs(tmp_path, hidden), ())[0])
     problem = Problem(runs, choose(runs, 12))
-    found = terms(problem, calibrate(problem))[0]
+    base = calibrate(problem)
+    found = terms(problem, base)[0]
     assert (found.place, found.variable) == ("drive", "drive_position")
     assert found.x[1] - found.x[0] < 0.0052 / 3, "knots too far apart for the pitch"
+    learned = refitted(problem, base, found)
+    assert learned is not None
+    before, after = (error(problem, f.residual).max() for f in (base, learned))
+    assert after < 0.05 * before, "the term that was seen was not learned"
 
 
 def test_where_much_is_wrong_and_nothing_fits_something_is_said(tmp_path: Path) -> None:

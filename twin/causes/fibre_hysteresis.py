@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from twin.causes._kind import Cause, Survey, Values, dynamics, grid, strands
@@ -21,7 +22,9 @@ def _branch(q, p):  # type: ignore[no-untyped-def]
     r2 = q[k.DD2] if q[k.D2] > 0.0 else 0.0
     q[rate] = r1 - 0.5 * (abs(r1) * q[own] + r1 * abs(q[own])) / y1
     q[rate + 1] = r2 - 0.5 * (abs(r2) * q[own + 1] + r2 * abs(q[own + 1])) / y2
-    q[k.STIFF] = max(q[k.STIFF], 0.5 * (abs(r1) / y1 + abs(r2) / y2))
+    stiff = q[k.C1] + q[k.C2] + p[1] * (p[3] + p[4])
+    rim = 0.6 * math.sqrt(stiff / q[k.RIM]) if q[k.RIM] > 0.0 else 0.0  # as `composed_force.pace`, the branch with it
+    q[k.STIFF] = max(q[k.STIFF], rim, 0.5 * (abs(r1) / y1 + abs(r2) / y2))
 
 
 def _scan(survey: Survey) -> Sequence[Values]:

@@ -6,6 +6,7 @@ snatch changes within a sample.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from twin.causes._kind import Cause, Survey, Values, dynamics, grid, strands
@@ -22,7 +23,9 @@ def _branch(q, p):  # type: ignore[no-untyped-def]
     q[k.E2] += p[1] * p[4] * spring2
     q[k.RATE + own] = spring1 / p[2]
     q[k.RATE + own + 1] = spring2 / p[2]
-    q[k.STIFF] = max(q[k.STIFF], 1.0 / p[2])
+    stiff = q[k.C1] + q[k.C2] + p[1] * (p[3] + p[4])
+    rim = 0.6 * math.sqrt(stiff / q[k.RIM]) if q[k.RIM] > 0.0 else 0.0  # as `composed_force.pace`, the branch with it
+    q[k.STIFF] = max(q[k.STIFF], rim, 1.0 / p[2])
 
 
 def _scan(survey: Survey) -> Sequence[Values]:

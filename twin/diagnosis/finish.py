@@ -44,12 +44,13 @@ def regained(problem: Problem, fitted: Fitted) -> Fitted:
         return fitted
     few, every = problem.part(astray), np.ones(len(fitted.z), bool)
     anew = fit(few, fitted.model, fitted.z, None, iterations=5, fixed=every)
-    better = misses(few, anew.residual).max(axis=1) < 0.9 * each[astray]
+    before = misses(problem, fitted.residual)[astray].sum(axis=1)
+    better = misses(few, anew.residual).sum(axis=1) < 0.9 * before
     if not better.any():
         return fitted
     starts = fitted.starts.copy()
     starts[astray[better]] = anew.starts[better]
-    return fit(problem, fitted.model, fitted.z, starts, iterations=4)
+    return ranked(problem, [fit(problem, fitted.model, fitted.z, starts, iterations=4), fitted])[0]
 
 
 __all__ = ["LONG", "ended", "finished", "regained"]

@@ -101,8 +101,8 @@ def linearise(
 ) -> Linear:
     """Forward differences in every free coordinate and in the starts.
 
-    From `known`, an earlier linearisation of the same model, base values' columns stay unless `base` asks for new ones,
-    the starts' unless `begin` does; the causes' are always new.
+    From `known`, an earlier linearisation of the same model, base values' columns, and those of a learned term's many
+    heights, stay unless `base` asks for new ones, the starts' unless `begin` does; the causes' are always new.
     """
     model, z, starts = fitted.model, fitted.z, fitted.starts
     root = np.sqrt(weigh(fitted.residual, spread)) / spread * problem.windows.use

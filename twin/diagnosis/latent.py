@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from stand.setup import System
 from twin.causes._kind import Cause
 from twin.diagnosis.composition import Composition
-from twin.diagnosis.fit import Fitted, reduce, scale, slopes, weigh
+from twin.diagnosis.fit import Fitted, Linear, Reduced, reduce, scale, slopes, weigh
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.run import LENGTH
 from twin.kernels import composed_latent as kernels
@@ -78,10 +78,10 @@ def terms(problem: Problem, fitted: Fitted) -> list[Term]:
     simulated, _ = problem.simulate(fitted.model, fitted.z, fitted.starts)
     at, values = _nodes(problem, simulated)
     found: list[Term] = []
-    for place, (hook, function, size, _) in PLACES.items():
+    for place in PLACES:
         if problem.system is not System.WFPD and place in ("pulley", "drive"):
             continue
-        grams = _grams(problem, fitted, linear, reduced, spread, hook, function, size)
+        grams = _grams(problem, fitted, linear, reduced, spread, place)
         for variable in ALLOWED[place]:
             if variable == "frequency":
                 found.append(_sinusoid(problem, place, grams, at))
@@ -111,12 +111,15 @@ def _nodes(problem: Problem, simulated: Float) -> tuple[Float, Mapping[str, Floa
     return (first + wait) * dt, {n: np.where(outside, np.nan, x) for n, x in values.items()}
 
 
-def _grams(problem, fitted, linear, reduced, spread, hook, function, size) -> Grams:  # type: ignore[no-untyped-def]
+def _grams(
+    problem: Problem, fitted: Fitted, linear: Linear, reduced: Reduced, spread: NDArray[np.float64], place: str
+) -> Grams:
+    hook, function, size, _ = PLACES[place]
     root = np.sqrt(weigh(fitted.residual, spread)) / spread * problem.windows.use
     here = problem.predict(fitted.model, fitted.z, fitted.starts)
     columns = []
     for h in range(kernels.TRAIN):
-        cause = _pseudo(f"hat {h}", hook, function, (size, float(h), SPACING * problem.dt))
+        cause = _pseudo(f"hat {h} at the {place}", hook, function, (size, float(h), SPACING * problem.dt))
         model = Composition(fitted.model.setups, (*fitted.model.causes, cause))
         there = problem.predict(model, fitted.model.carry(fitted.z, model), fitted.starts)
         columns.append(np.nan_to_num((there - here) / size * root).reshape(len(here), -1))

@@ -170,7 +170,8 @@ class Problem:
     ) -> Float:
         """The causes' own states at the starts, from their history along the measured motion.
 
-        Kept by the causes' parameters alone: what a small step of a base value does to a history is of second order.
+        Kept by the causes' values, freed base values among them: what a small step of another base value does to a
+        history, which moves the rim a little, is left out of the columns.
         """
         own = np.zeros((len(self.windows), k.STATES))
         if not model.own_states or self.system is System.LINEAR_DRIVE:
@@ -183,8 +184,8 @@ class Problem:
             )
             return own
 
-        values = tuple(v for c in model.causes for v in model.values(z, c).values() if c.base is None)
-        return self._keep(("own", tuple(c.name for c in model.causes), values), 6, fill)
+        values = tuple(v for c in model.causes for v in model.values(z, c).values())
+        return self._keep(("own", tuple(c.name for c in model.causes), values), len(values) + 6, fill)
 
     def _history(
         self, coasts: bool, r: int, own: Float, constants: Float, drive: Float, undo: Undo, before: Hooks, after: Hooks
@@ -251,20 +252,20 @@ class Problem:
 
     def _around(self, channel: int, late: Float, lag: float) -> tuple[Float, Float]:
         """A channel's smooth value and rate at the starts, `late` s further on and a lag undone: between the local
-        cubics of the two samples about that moment, so that nothing jumps where the nearer one changes.
+        polynomials of the two samples about that moment, so that nothing jumps where the nearer one changes.
         """
         places = np.floor(late / self.dt).astype(np.int64)
         share = late / self.dt - places
-        before, after = self._cubic(channel, places), self._cubic(channel, places + 1)
+        before, after = self._local(channel, places), self._local(channel, places + 1)
         value, rate, second = (
             (1.0 - share) * a + share * b
             for a, b in zip(ahead(before, share * self.dt), ahead(after, (share - 1.0) * self.dt), strict=True)
         )
         return value + lag * rate, rate + lag * second
 
-    def _cubic(self, channel: int, places: Index) -> tuple[Float, Float, Float]:
+    def _local(self, channel: int, places: Index) -> tuple[Float, Float, Float]:
         """Value, rate and second derivative about samples `places` after the starts; kept."""
-        return self._keep((f"cubic {channel}", places.tobytes()), 16, lambda: self._fit(channel, places))
+        return self._keep((f"local {channel}", places.tobytes()), 16, lambda: self._fit(channel, places))
 
     def _fit(self, channel: int, shift: Index) -> tuple[Float, Float, Float]:
         w = self.windows

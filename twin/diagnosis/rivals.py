@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twin.causes._kind import Cause
-from twin.diagnosis.finish import ended
+from twin.diagnosis.finish import ended, regained
 from twin.diagnosis.fit import Fitted, fit, loss, scale, slopes
 from twin.diagnosis.found import Rival
 from twin.diagnosis.misfit import error, gained, prior_price
@@ -28,8 +28,8 @@ ALIKE = 40.0
 MOST = 4
 SWAPS = 3
 CLEARLY = 30.0
-#: share by which a rival's squared error may exceed the final model's, for its fit to be taken to its end
-NEAR = 0.05
+#: of chi^2 for each sample by which a rival may be behind the final model, for its fit to be taken to its end
+NEAR = 0.03
 
 
 @dataclass(frozen=True)
@@ -48,14 +48,19 @@ class Standing:
 
 def standings(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
     """Each found cause against its rivals, refitted in its place."""
-    return [_standing(search, cause, catalogue) for cause in search.current.model.causes]
+    names = [cause.name for cause in search.current.model.causes]
+    fits = [_rivals(search, cause, catalogue) for cause in search.current.model.causes]
+    if any(_near(search.problem, search.current, f) for each in fits for f in each.values()):
+        search.end_current()
+    causes = {cause.name: cause for cause in search.current.model.causes}
+    return [_standing(search, causes[name], each) for name, each in zip(names, fits, strict=True)]
 
 
 def settle(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
     """Standings once no rival does better in a cause's place: one that does takes it, and what that makes needless
     goes. Where nearly everything is left, rivals are not worth their refits.
     """
-    if hopeless(search):
+    if len(search.current.model.causes) > 1 and hopeless(search):
         return [Standing(c.name, {}, trust(search, c), (), {}) for c in search.current.model.causes]
     for _ in range(SWAPS):
         ranks = standings(search, catalogue)
@@ -85,13 +90,15 @@ def _merged(search: Search, ranks: Sequence[Standing]) -> Fitted | None:
     return None
 
 
-def _standing(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> Standing:
-    problem, final = search.problem, search.current
+def _rivals(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> dict[str, Fitted]:
+    """The fits with each rival in a cause's place."""
     rivals = _candidates(search, cause, catalogue)
-    promises = search.work.each(_instead, problem, [_place(search, cause, rival) for rival in rivals])
-    fits = {rival.name: promise() for rival, promise in zip(rivals, promises, strict=True)}
-    if any(_near(problem, final, f) for f in fits.values()):
-        final = search.end_current()
+    promises = search.work.each(_instead, search.problem, [_place(search, cause, rival) for rival in rivals])
+    return {rival.name: promise() for rival, promise in zip(rivals, promises, strict=True)}
+
+
+def _standing(search: Search, cause: Cause, fits: Mapping[str, Fitted]) -> Standing:
+    problem, final = search.problem, search.current
     spread = scale(problem, final.residual)
     here = loss(final.residual, spread) + prior_price(final)
     behind = {n: loss(f.residual, spread) + prior_price(f) - here for n, f in fits.items()}
@@ -162,12 +169,15 @@ def _instead(problem: Problem, final: Fitted, cause: Cause, rival: Cause, before
 
 def _matched(problem: Problem, final: Fitted, rival: Fitted) -> Fitted:
     """A rival that comes near is taken to its end as the final model was: hundreds in chi^2 can be left in between."""
+    rival = regained(problem, rival)
     return ended(problem, rival) if _near(problem, final, rival) else rival
 
 
 def _near(problem: Problem, final: Fitted, rival: Fitted) -> bool:
-    beyond = error(problem, rival.residual) - (1.0 + NEAR) * error(problem, final.residual)
-    return bool(beyond.max() <= 0.0)
+    """Whether a rival leaves hardly more: in the robust loss, for a window astray is no difference."""
+    spread = np.minimum(scale(problem, final.residual), scale(problem, rival.residual))
+    beyond = loss(rival.residual, spread) - loss(final.residual, spread)
+    return bool(beyond < NEAR * np.count_nonzero(problem.windows.use))
 
 
 def tried(search: Search, ranks: Sequence[Standing]) -> tuple[Rival, ...]:

@@ -44,8 +44,8 @@ REACHED = frozenset({"level", "position", "friction"})
 
 @dataclass
 class Search:
-    """What was tried: current fit, the base fit it began from, scores of the first round, and every refit; work: who
-    does independent fits.
+    """What was tried: current fit, the base fit it began from, scores of the first round, every refit; work: who does
+    independent fits; ladder: the fits taken; less: the current one without a cause; end: it, once taken to its end.
     """
 
     problem: Problem
@@ -62,9 +62,9 @@ class Search:
     def end_current(self) -> Fitted:
         """The current fit gone on with to its end, once; the ladder's rung with it."""
         if self.end is not self.current:
-            rung = self.ladder[-1] is self.current
-            self.current = self.end = ended(self.problem, self.current)
-            self.ladder[-1] = self.end if rung else self.ladder[-1]
+            before, self.end = self.current, ended(self.problem, self.current)
+            self.current, self.ladder = self.end, [self.end if f is before else f for f in self.ladder]
+            self.less.clear()
         return self.current
 
     def lacking(self, causes: Sequence[Cause]) -> list[Fitted]:
@@ -83,7 +83,7 @@ def calibrate(problem: Problem, causes: Sequence[Cause] = (), iterations: int = 
     model = Composition(tuple(r.setup for r in problem.runs), tuple(causes))
     z = model.zero()
     settled = fit(problem, model, z, iterations=1, fixed=np.ones(len(z), bool))
-    return fit(problem, model, z, settled.starts, iterations=iterations)
+    return regained(problem, fit(problem, model, z, settled.starts, iterations=iterations))
 
 
 def begin(fitted: Fitted, scored: Scored, which: int = 0) -> tuple[Composition, Float]:
@@ -297,4 +297,4 @@ def without(problem: Problem, fitted: Fitted, cause: Cause, iterations: int = 5)
     z = fitted.model.carry(fitted.z, model)
     low = np.array([c.low for c in model.coordinates])
     high = np.array([c.high for c in model.coordinates])
-    return fit(problem, model, np.clip(z, low, high), fitted.starts, iterations=iterations)
+    return regained(problem, fit(problem, model, np.clip(z, low, high), fitted.starts, iterations=iterations))

@@ -96,7 +96,7 @@ def gains(half: int, degree: int, dt: float) -> tuple[float, float]:
     return float(np.linalg.norm(solve[0])), float(np.linalg.norm(solve[1]) / (half * dt))
 
 
-def ahead(cubic: tuple[Float, Float, Float], time: Float) -> tuple[Float, Float, Float]:
-    """What a cubic tells `time` s further on."""
-    value, rate, second = cubic
+def ahead(here: tuple[Float, Float, Float], time: Float) -> tuple[Float, Float, Float]:
+    """Value, rate and second derivative `time` s further on."""
+    value, rate, second = here
     return value + time * rate + 0.5 * time**2 * second, rate + time * second, second

@@ -9,14 +9,15 @@ import numpy as np
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.fit import Fitted, fit, loss, scale, weigh
 from twin.diagnosis.latent import PRICE, Term, as_cause, terms
-from twin.diagnosis.misfit import error, prior_price
+from twin.diagnosis.misfit import error, misses, prior_price
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.search import Search
 
 ENOUGH = 1.10
 SHARE = 0.10
-#: squared error in the noise at which, with nothing named, something must be said however little a term explains
-WRONG = 3.0
+#: where nothing is named and such a share of the windows misses by so much, in the noise squared, a term is told that
+#: takes so little of it
+OFTEN, WRONG, LITTLE = 0.25, 3.0, 0.01
 ALIKE = 0.8
 POSITIONS = ("weight_position", "drive_position", "pulley_angle")
 SPEEDS = ("weight_velocity", "drive_velocity")
@@ -38,8 +39,8 @@ def look(search: Search) -> Unknown | None:
     problem, final = search.problem, search.current
     if error(problem, final.residual, wild=0.0).max() < ENOUGH:  # a single wild window is no structure
         return None
-    bare = not final.model.causes
-    least = 0.0 if bare and error(problem, final.residual).max() > WRONG else SHARE
+    wrong = np.mean(misses(problem, final.residual).max(axis=1) > WRONG)
+    least = LITTLE if not final.model.causes and wrong > OFTEN else SHARE
     candidates = [c for c in (_best(problem, f, least) for f in _beginnings(search)) if c is not None]
     if not candidates:
         return None
@@ -61,7 +62,7 @@ def _best(problem: Problem, fitted: Fitted, least: float) -> Unknown | None:
     alike = [t.variable for t in found if t.gain > ALIKE * term.gain]
     names = tuple(dict.fromkeys([term.variable, *_aliases(term.variable), *alike]))[:4]
     before = float(error(problem, fitted.residual).max())
-    refit = _refitted(problem, fitted, term)
+    refit = refitted(problem, fitted, term)
     if refit is not None and (after := float(error(problem, refit.residual).max())) < 0.8 * before:
         return Unknown(term, names, refit, 1.0 - after / before, True)
     return Unknown(term, names, fitted, term.gain / weighted, False)
@@ -75,7 +76,7 @@ def _aliases(variable: str) -> list[str]:
     return ["time"] if variable == "frequency" else []
 
 
-def _refitted(problem: Problem, fitted: Fitted, term: Term) -> Fitted | None:
+def refitted(problem: Problem, fitted: Fitted, term: Term) -> Fitted | None:
     """The term put in as a table and refitted with all else."""
     cause = as_cause(term)
     if cause is None:
@@ -115,4 +116,4 @@ def _better(problem: Problem, alone: Unknown, catalogue: Fitted) -> bool:
     return mine < loss(catalogue.residual, spread) + prior_price(catalogue)
 
 
-__all__ = ["Unknown", "look"]
+__all__ = ["Unknown", "look", "refitted"]

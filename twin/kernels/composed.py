@@ -9,7 +9,7 @@ import numpy as np
 
 from twin.kernels import composed_slots as k
 from twin.kernels.composed_force import begin, evaluate
-from twin.kernels.composed_step import DV, FULL, T2, advance, settle
+from twin.kernels.composed_step import DV, FULL, STEP, T2, advance, settle
 from twin.kernels.jit import compiler
 
 _V = "float64[::1]"
@@ -17,7 +17,7 @@ _M = "float64[:,::1]"
 _A = "int64[::1]"
 _HOOKS = f"{_A},{_M},{_A},{_M}"
 
-#: most that a state decays over one step of its history, and most steps a sample
+#: most that a state decays over one step of its history, and most steps in STEP s
 _DECAY, _PIECES = 0.7, 40
 
 compiled = compiler("composed")
@@ -73,10 +73,10 @@ def history(path, force, drive, c, own, dt, before, bp, after, ap, coasts, out):
     slack and is held back by the weight's, moves by the strands' pulls from where the path begins. Tensions are what
     the strands give; for the hooks the drive strand's is force [n], N, where that is not negative.
     """
-    n, count, pulley = len(path), int(c[k.K_OWN]), c[k.K_SYSTEM] == k.WFPD and coasts != 0
+    n, count, coasting = len(path), int(c[k.K_OWN]), c[k.K_SYSTEM] == k.WFPD and coasts != 0
     y, q, mode = np.zeros(FULL), np.zeros(k.SIZE), np.ones(2, np.int64)
     state, slope = own[0].copy(), np.zeros(k.STATES)
-    least = 1 if dt < 0.6e-3 else 2
+    least, most = 1 if dt < 0.6e-3 else 2, _PIECES * int(np.ceil(dt / STEP))
     begin(q, c)
     y[:4] = path[0]
     y[4:DV] = state
@@ -86,16 +86,17 @@ def history(path, force, drive, c, own, dt, before, bp, after, ap, coasts, out):
         out[i] = state
         if i == n - 1:
             break
+        q[k.XDD] = (drive[i + 1, 1] - drive[i, 1]) / dt
         rate = q[k.STIFF]
-        if pulley:
+        if coasting:
             rate = max(rate, (q[k.B1] + q[k.B2]) / q[k.RIM], math.sqrt((q[k.C1] + q[k.C2]) / q[k.RIM]))
-        pieces = min(max(least, int(np.ceil(dt * rate / _DECAY))), _PIECES)
+        pieces = min(max(least, int(np.ceil(dt * rate / _DECAY))), most)
         h = dt / pieces
         for piece in range(pieces):
             theta = (piece + 0.5) / pieces
             for m in range(4):
                 y[m] = path[i, m] + theta * (path[i + 1, m] - path[i, m])
-            if pulley:
+            if coasting:
                 y[2], y[3] = s + 0.5 * h * w, w + 0.5 * h * push
             x = drive[i, 0] + theta * (drive[i + 1, 0] - drive[i, 0])
             xd = drive[i, 1] + theta * (drive[i + 1, 1] - drive[i, 1])
@@ -112,7 +113,7 @@ def history(path, force, drive, c, own, dt, before, bp, after, ap, coasts, out):
                 )
                 if on1 and on2:
                     break
-            s += h * y[3]
+            s += h * (w + 0.5 * h * push)
             w += h * push
             for m in range(count):
                 slope[m] = q[k.RATE + m]
