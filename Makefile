@@ -7,6 +7,7 @@ SEEDS ?= 50
 MINUTES ?= 10
 COUNT ?= 20
 OUT ?= build/blind
+RUNS ?= 6
 export NUMBA_CACHE_DIR ?= $(CURDIR)/build/numba
 
 .PHONY: help install kernels demo test quick lint browser dask slow soak kills trips align bench blind
@@ -72,5 +73,5 @@ bench: install ## speed against other codes, into build/bench.json
 	$(BIN)/uv pip install --quiet --python $(BIN)/python -c constraints.txt -e '.[bench]'
 	$(BIN)/python -m bench
 
-blind: install ## SEED=1: the battery of hidden effects
-	$(BIN)/python -m tests.blind --seed $(SEED) --out $(OUT)
+blind: install ## SEED=1: the battery of hidden effects; RUNS=1: from one run of each campaign
+	$(BIN)/python -m tests.blind --seed $(SEED) --out $(OUT) --runs $(RUNS)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
@@ -20,6 +20,7 @@ from mocks.plant.rig import Rig
 from mocks.record import Noise
 
 KINDS = ("single", "clean", "double", "outside")
+RUNS = 6  # of a campaign
 PER_CAUSE, CLEAN, DOUBLE, OUTSIDE = 5, 150, 60, 30
 STRENGTHS = (6.0, 1.5, 10.0, 3.0, 18.0)  # wanted, cause by cause in turn
 CLEAR = (5.0, 16.0)  # wanted range where two are hidden, or one outside the catalogue
@@ -50,11 +51,20 @@ class Case:
         return f"stand-{self.number:04d}"
 
 
-def battery(seed: int, kinds: Sequence[str] = KINDS, share: float = 1.0) -> list[Case]:
-    """All stands of a seed, mixed; share < 1 keeps that part of each kind (at least one of each)."""
+def battery(seed: int, kinds: Sequence[str] = KINDS, share: float = 1.0, runs: int = RUNS) -> list[Case]:
+    """All stands of a seed, mixed; share < 1 keeps that part of each kind (at least one of each).
+
+    runs: how many of each campaign's runs there are, drawn; what is hidden is then as strong as wanted in these alone.
+    """
     plan = [entry for kind in kinds for entry in _some(_PLANS[kind](seed), share, seed)]
     order = np.random.default_rng([seed, 99]).permutation(len(plan))
-    return [_case(seed, number, *plan[k]) for number, k in enumerate(order)]
+    cases = [_case(seed, number, *plan[k]) for number, k in enumerate(order)]
+    return cases if runs >= RUNS else [_shortened(case, runs) for case in cases]
+
+
+def _shortened(case: Case, runs: int) -> Case:
+    kept = np.random.default_rng([case.seed, 6]).permutation(len(case.motions))[:runs]
+    return replace(case, motions=tuple(case.motions[k] for k in sorted(kept)))
 
 
 Plan = tuple[str, tuple[tuple[str, float], ...], int]  # kind, (effect, wanted strength) ..., its own number

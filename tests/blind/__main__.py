@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
-from mocks.battery.draw import KINDS, Case, battery
+from mocks.battery.draw import KINDS, RUNS, Case, battery
 from tests.blind.stand import diagnose_case, result_path
 from tests.blind.table import table
 
@@ -17,13 +17,15 @@ from tests.blind.table import table
 def main(argv: Sequence[str] | None = None) -> int:
     """The command line."""
     given = _arguments(argv)
-    out = given.out / f"seed-{given.seed}"
+    short = f"-runs-{given.runs}" if given.runs < RUNS else ""
+    out = given.out / f"seed-{given.seed}{short}"
     out.mkdir(parents=True, exist_ok=True)
-    cases = battery(given.seed, given.kinds, given.share)
+    cases = battery(given.seed, given.kinds, given.share, given.runs)
     if not given.table:
         _run(cases, out, given.processes, given.keep)
     results = [json.loads(p.read_text()) for case in cases if (p := result_path(case, out)).exists()]
-    text = f"seed {given.seed}, version {_version()}, {len(results)} of {len(cases)} stands\n\n{table(results)}\n"
+    head = f"seed {given.seed}, runs {given.runs}, version {_version()}, {len(results)} of {len(cases)} stands"
+    text = f"{head}\n\n{table(results)}\n"
     (out / "table.txt").write_text(text)
     print(text)
     return 0
@@ -35,6 +37,7 @@ def _arguments(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--out", type=Path, default=Path("build/blind"))
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS)
     parser.add_argument("--share", type=float, default=1.0, help="part of each kind")
+    parser.add_argument("--runs", type=int, choices=range(1, RUNS + 1), default=RUNS, help="of each campaign")
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--keep", action="store_true", help="keep the recordings (1.5 MB a run)")
     parser.add_argument("--table", action="store_true", help="only print the table of what is done")

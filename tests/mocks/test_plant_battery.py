@@ -97,3 +97,10 @@ def test_strength_is_nothing_on_a_clean_stand_and_grows_with_the_size() -> None:
     assert strength(stand, {}, motions, seconds=3.0, windows=4) < 0.15
     assert measured(8.0) == pytest.approx(4.0 * measured(2.0), rel=0.15)
     assert measured(8.0) > 1.0
+
+
+def test_a_battery_of_single_runs_has_the_same_stands_with_one_of_their_motions() -> None:
+    whole, short = battery(3, ("single",), 0.05), battery(3, ("single",), 0.05, runs=1)
+    assert [c.hidden for c in short] == [c.hidden for c in whole]
+    assert all(len(c.motions) == 1 and c.motions[0] in w.motions for c, w in zip(short, whole, strict=True))
+    assert len({w.motions.index(c.motions[0]) for c, w in zip(short, whole, strict=True)}) > 2, "always the same run"
