@@ -123,3 +123,13 @@ def test_a_window_gone_astray_is_started_once_more(tmp_path: Path) -> None:
     found = regained(problem, stray)
     assert misses(problem, found.residual)[3].max() < 1.1 * misses(problem, fitted.residual)[3].max()
     assert regained(problem, fitted) is fitted, "nothing was astray"
+
+
+def test_a_fit_stuck_at_too_small_a_cause_is_begun_again_with_a_larger(tmp_path: Path) -> None:
+    problem = _exact(tmp_path, {"pulley-bearing-drag": {"coefficient": 8.4}}, (SLOW, THROWN))
+    cause = load(twin.causes, "pulley-bearing-drag", Cause)
+    model = Composition(tuple(r.setup for r in problem.runs), (cause,))
+    z = model.put(model.zero(), cause, {"coefficient": 2.0})
+    z[[model.index["base", "split"], model.index["base", "pulley_inertia"]]] = -2.1, -2.9
+    done = finished(problem, fit(problem, model, z, iterations=2))
+    assert model.values(done.z, cause)["coefficient"] == pytest.approx(8.4, rel=0.03)

@@ -10,13 +10,40 @@ from twin.diagnosis.problem import Problem
 
 #: squared error in the sensors' noise below which there is nothing to finish, and iterations of a long fit
 NEARLY, LONG = 1.015, 12
+#: squared error at which a fit may be stuck, and the sizes of its last cause from which it is begun again
+STUCK, SIZES = 1.2, (1.6, 0.6)
+#: first parameters that say where an effect begins, not how large it is
+REACHED = frozenset({"level", "position", "friction"})
 #: a window gone astray misses by so much, and by so many times the others', in the noise squared; they are few
 ASTRAY, BEYOND, SHARE = 1.7, 1.5, 0.15
 
 
 def finished(problem: Problem, fitted: Fitted) -> Fitted:
-    """The fit taken to its end where something is left."""
-    return fitted if error(problem, fitted.residual).max() < NEARLY else ended(problem, fitted)
+    """The fit taken to its end where something is left; where much is, from another size of its last cause."""
+    if error(problem, fitted.residual).max() < NEARLY:
+        return fitted
+    done = ended(problem, fitted)
+    if error(problem, done.residual).max() < STUCK:
+        return done
+    return ranked(problem, [done, *_resized(problem, done)])[0]
+
+
+def _resized(problem: Problem, fitted: Fitted) -> list[Fitted]:
+    """Fits from the base values as stated with the last cause larger and smaller: what calibration had bent towards it
+    can hold it where it is.
+    """
+    model, cause = fitted.model, fitted.model.causes[-1]
+    first = cause.parameters[0]
+    if cause.base is not None or first.name in REACHED:
+        return []
+    values, ends = model.values(fitted.z, cause), []
+    for times in SIZES:
+        size = first.value + times * (values[first.name] - first.value)
+        size = min(max(size, first.bounds[0]), first.bounds[1])
+        z = model.put(model.unbent(fitted.z), cause, values | {first.name: size})
+        problem.forget_states()
+        ends.append(regained(problem, fit(problem, model, z, None, iterations=LONG, tolerance=FINE)))
+    return ends
 
 
 def ended(problem: Problem, fitted: Fitted) -> Fitted:
@@ -53,4 +80,4 @@ def regained(problem: Problem, fitted: Fitted) -> Fitted:
     return ranked(problem, [fit(problem, fitted.model, fitted.z, starts, iterations=4), fitted])[0]
 
 
-__all__ = ["LONG", "ended", "finished", "regained"]
+__all__ = ["LONG", "REACHED", "ended", "finished", "regained"]

@@ -14,7 +14,7 @@ from twin.diagnosis.clipped import GUIDE_END, PASSED
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.coordinates import NO_FRICTION
 from twin.diagnosis.direct import screen
-from twin.diagnosis.finish import LONG, ended, finished, regained
+from twin.diagnosis.finish import LONG, REACHED, ended, finished, regained
 from twin.diagnosis.fit import Fitted, Linear, carried, fit, slopes
 from twin.diagnosis.misfit import error, gained, misses, ranked
 from twin.diagnosis.precision import covariance
@@ -38,8 +38,6 @@ HOPELESS, LITTLE = 30.0, 0.03
 LARGE = 25.0
 DOUBTFUL = 1.4
 FEW = 2
-#: first parameters that say where an effect begins, not how large it is
-REACHED = frozenset({"level", "position", "friction"})
 
 
 @dataclass

@@ -14,6 +14,7 @@ from stand.units import conversion
 from twin.causes._kind import Cause
 from twin.diagnosis.clipped import Clip
 from twin.diagnosis.findings import findings
+from twin.diagnosis.finish import REACHED
 from twin.diagnosis.fit import Fitted
 from twin.diagnosis.found import Evidence
 from twin.diagnosis.hum import Hum
@@ -23,7 +24,7 @@ from twin.diagnosis.precision import covariance, stated
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.rivals import Standing
 from twin.diagnosis.score import Scored
-from twin.diagnosis.search import REACHED, Search
+from twin.diagnosis.search import Search
 from twin.diagnosis.unknown import Unknown
 from twin.diagnosis.verdict import Verdict
 from twin.extended import to_toml

@@ -15,6 +15,8 @@ from twin.diagnosis.search import Search
 
 ENOUGH = 1.10
 SHARE = 0.10
+#: squared error that a learned term may leave, and share of its promise at which one of another kind is tried
+RIGHT, PROMISING = 2.0, 0.3
 #: where nothing is named and such a share of the windows misses by so much, in the noise squared, a term is told that
 #: takes so little of it
 OFTEN, WRONG, LITTLE = 0.25, 3.0, 0.01
@@ -58,14 +60,34 @@ def _best(problem: Problem, fitted: Fitted, least: float) -> Unknown | None:
     weighted = float(np.sum((fitted.residual / spread) ** 2 * weigh(fitted.residual, spread)))
     if not found or found[0].gain < least * weighted:
         return None
+    found, refit = _learned(problem, fitted, found)
     term = found[0]
     alike = [t.variable for t in found if t.gain > ALIKE * term.gain]
     names = tuple(dict.fromkeys([term.variable, *_aliases(term.variable), *alike]))[:4]
     before = float(error(problem, fitted.residual).max())
-    refit = refitted(problem, fitted, term)
     if refit is not None and (after := float(error(problem, refit.residual).max())) < 0.8 * before:
         return Unknown(term, names, refit, 1.0 - after / before, True)
     return Unknown(term, names, fitted, term.gain / weighted, False)
+
+
+def _learned(problem: Problem, fitted: Fitted, found: list[Term]) -> tuple[list[Term], Fitted | None]:
+    """The terms, the best learned one first, and its refit. What promises most to first order may do so by its many
+    knots: where its refit leaves much, the best of another kind of variable is tried, too.
+    """
+    refit = refitted(problem, fitted, found[0])
+    if refit is None or error(problem, refit.residual).max() < RIGHT:
+        return found, refit
+    others = [t for t in found if t.variable not in _kind(found[0].variable)]
+    if not others or others[0].gain < PROMISING * found[0].gain:
+        return found, refit
+    second = refitted(problem, fitted, others[0])
+    if second is None or error(problem, second.residual).max() > ALIKE * error(problem, refit.residual).max():
+        return found, refit
+    return others, second
+
+
+def _kind(variable: str) -> tuple[str, ...]:
+    return next((alike for alike in (POSITIONS, SPEEDS) if variable in alike), (variable,))
 
 
 def _aliases(variable: str) -> list[str]:
