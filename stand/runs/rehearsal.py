@@ -22,13 +22,13 @@ LENGTH, READ = 2.5, 0.01
 def rehearse(stand: Stand) -> int:
     """Align made-up streams of the stand's instruments live, aim at a made-up ring; the grid samples that came out."""
     aligner, told = LiveAligner(stand, 0.0), 0
-    tick = 1.0 / nominal_rate(stand.drive)
+    rates = {name: nominal_rate(config) for name, config in stand.instruments.items()}
+    tick = 1.0 / rates["drive"]
     aim = Aim(1.0 / stand.drive.poll_rate, tick, 0.0, seed=0)
     for poll in range(FIRST):
         asked = poll * aim.period
         aim.polled(int(asked / tick + 0.5), asked, asked + 5e-4 + 1e-5 * (poll % 7))
     aim.next(LENGTH)
-    rates = {name: nominal_rate(config) for name, config in stand.instruments.items()}
     for read in range(round(LENGTH / READ)):
         for name, rate in rates.items():
             told += _push(aligner, name, read * READ, rate)

@@ -5,8 +5,6 @@ from __future__ import annotations
 import subprocess
 import sys
 
-import pytest
-
 FIRST_FITS = """
 import resource
 import numpy as np
@@ -45,6 +43,5 @@ def _pages_met(rehearsed: bool) -> int:
     return int(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="counts the pages of a Linux process")
 def test_after_a_rehearsal_the_first_fits_of_the_clocks_meet_nothing_new() -> None:
     assert 3 * _pages_met(rehearsed=True) < _pages_met(rehearsed=False)

@@ -57,10 +57,7 @@ def screen(problem: Problem, model: Composition, z: Float, causes: Iterable[Caus
         carried = model.carry(z, extended)
         trials = []
         for values in sizes(cause, reach, stated):
-            if cause.base:
-                problem.forget_states()  # they hang on base values, and these are far off
             left = residual(problem, extended, extended.put(carried, cause, values), starts)
             trials.append((before - loss(left, spread), 1.0, values))
         found.append(Scored(cause, tuple(sorted(trials, key=lambda t: -t[0])[:2])))
-    problem.forget_states()
     return sorted((s for s in found if s.gain > 0), key=lambda s: -s.gain)

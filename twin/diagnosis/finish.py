@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
+from twin.diagnosis.composition import Composition
 from twin.diagnosis.fit import FINE, Fitted, fit
 from twin.diagnosis.misfit import error, misses, ranked
 from twin.diagnosis.problem import Problem
 
+Float = NDArray[np.float64]
 #: squared error in the sensors' noise below which there is nothing to finish, and iterations of a long fit
 NEARLY, LONG = 1.015, 12
 #: squared error at which a fit may be stuck, and the sizes of its last cause from which it is begun again
@@ -41,8 +44,7 @@ def _resized(problem: Problem, fitted: Fitted) -> list[Fitted]:
         size = first.value + times * (values[first.name] - first.value)
         size = min(max(size, first.bounds[0]), first.bounds[1])
         z = model.put(model.unbent(fitted.z), cause, values | {first.name: size})
-        problem.forget_states()
-        ends.append(regained(problem, fit(problem, model, z, None, iterations=LONG, tolerance=FINE)))
+        ends.append(_end(problem, model, z))
     return ends
 
 
@@ -52,11 +54,14 @@ def ended(problem: Problem, fitted: Fitted) -> Fitted:
     What calibration bent before the causes were there can stay bent where snatches make the cost rough.
     """
     model = fitted.model
-    ends = []
-    for z, starts in ((fitted.z, fitted.starts), (model.unbent(fitted.z), None)):
-        problem.forget_states()
-        ends.append(regained(problem, fit(problem, model, z, starts, iterations=LONG, tolerance=FINE)))
-    return ranked(problem, ends)[0]
+    on, anew = _end(problem, model, fitted.z, fitted.starts), _end(problem, model, model.unbent(fitted.z))
+    return ranked(problem, [on, anew])[0]
+
+
+def _end(problem: Problem, model: Composition, z: Float, starts: Float | None = None) -> Fitted:
+    """A long and fine fit from z; states had elsewhere are not carried into it."""
+    problem.forget_states()
+    return regained(problem, fit(problem, model, z, starts, iterations=LONG, tolerance=FINE))
 
 
 def regained(problem: Problem, fitted: Fitted) -> Fitted:
@@ -65,14 +70,14 @@ def regained(problem: Problem, fitted: Fitted) -> Fitted:
     A start goes its own way while the parameters are still far off, and can stay behind a switch between slack and
     taut: one such window is worth hundreds in chi^2, enough to tell two causes apart that are alike.
     """
-    each = misses(problem, fitted.residual).max(axis=1)
+    missed = misses(problem, fitted.residual)
+    each = missed.max(axis=1)
     astray = np.flatnonzero(each > max(ASTRAY, BEYOND * float(np.median(each))))
     if not 0 < len(astray) <= max(2.0, SHARE * len(each)):
         return fitted
     few, every = problem.part(astray), np.ones(len(fitted.z), bool)
     anew = fit(few, fitted.model, fitted.z, None, iterations=5, fixed=every)
-    before = misses(problem, fitted.residual)[astray].sum(axis=1)
-    better = misses(few, anew.residual).sum(axis=1) < 0.9 * before
+    better = misses(few, anew.residual).sum(axis=1) < 0.9 * missed[astray].sum(axis=1)
     if not better.any():
         return fitted
     starts = fitted.starts.copy()

@@ -26,7 +26,7 @@ Float = NDArray[np.floating[Any]]
 SPACING = 8
 KNOTS, FINER = (8, 16, 28), (50, 80)
 #: along which a term may be as fine as the pitch of a screw or of a rack
-ALONG = frozenset({"weight_position", "drive_position", "pulley_angle"})
+POSITIONS = ("weight_position", "drive_position", "pulley_angle")
 PRICE = 14.0
 PLACES: Mapping[str, tuple[str, Any, float, str]] = {
     "guide": ("after", kernels.guide_hat, 0.5, "N"),
@@ -160,7 +160,7 @@ def _function(
     best = Term(place, variable, signed, -np.inf, np.zeros(0), np.zeros(0), np.zeros(0))
     if not high - low > 1e-9 * max(abs(low), abs(high), 1e-3):
         return best
-    for count in (*KNOTS, *FINER) if variable in ALONG else KNOTS:
+    for count in (*KNOTS, *FINER) if variable in POSITIONS else KNOTS:
         knots = np.linspace(low, high, count)
         phi = _basis(v, knots)
         if signed:

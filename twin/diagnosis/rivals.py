@@ -48,12 +48,11 @@ class Standing:
 
 def standings(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
     """Each found cause against its rivals, refitted in its place."""
-    names = [cause.name for cause in search.current.model.causes]
-    fits = [_rivals(search, cause, catalogue) for cause in search.current.model.causes]
+    causes = search.current.model.causes
+    fits = [_rivals(search, cause, catalogue) for cause in causes]
     if any(_near(search.problem, search.current, f) for each in fits for f in each.values()):
         search.end_current()
-    causes = {cause.name: cause for cause in search.current.model.causes}
-    return [_standing(search, causes[name], each) for name, each in zip(names, fits, strict=True)]
+    return [_standing(search, cause, each) for cause, each in zip(causes, fits, strict=True)]
 
 
 def settle(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:

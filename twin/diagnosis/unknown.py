@@ -8,7 +8,7 @@ import numpy as np
 
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.fit import Fitted, fit, loss, scale, weigh
-from twin.diagnosis.latent import PRICE, Term, as_cause, terms
+from twin.diagnosis.latent import POSITIONS, PRICE, Term, as_cause, terms
 from twin.diagnosis.misfit import error, misses, prior_price
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.search import Search
@@ -21,7 +21,6 @@ RIGHT, PROMISING = 2.0, 0.3
 #: takes so little of it
 OFTEN, WRONG, LITTLE = 0.25, 3.0, 0.01
 ALIKE = 0.8
-POSITIONS = ("weight_position", "drive_position", "pulley_angle")
 SPEEDS = ("weight_velocity", "drive_velocity")
 
 
@@ -87,15 +86,12 @@ def _learned(problem: Problem, fitted: Fitted, found: list[Term]) -> tuple[list[
 
 
 def _kind(variable: str) -> tuple[str, ...]:
+    """A variable and what data can't tell from it, taut: the same motion on both sides of the pulley and at its rim."""
     return next((alike for alike in (POSITIONS, SPEEDS) if variable in alike), (variable,))
 
 
 def _aliases(variable: str) -> list[str]:
-    """What data can't tell apart, taut: the same motion on both sides of the pulley and at its rim."""
-    for alike in (POSITIONS, SPEEDS):
-        if variable in alike:
-            return [name for name in alike if name != variable]
-    return ["time"] if variable == "frequency" else []
+    return ["time"] if variable == "frequency" else [name for name in _kind(variable) if name != variable]
 
 
 def refitted(problem: Problem, fitted: Fitted, term: Term) -> Fitted | None:
