@@ -61,11 +61,15 @@ class Composition:
         return np.where(bent, 0.0, z)
 
     def values(self, z: Float, cause: Cause) -> dict[str, float]:
-        """A cause's parameters by name, SI."""
+        """A cause's parameters by name, SI; a phase between -pi and pi."""
         if cause.base is not None:
             return {"difference": self.base_value(z, cause.base)}
-        where = {p.name: self.index[cause.name, p.name] for p in cause.parameters}
-        return {name: self.coordinates[i].value(float(z[i])) for name, i in where.items()}
+        found = {}
+        for p in cause.parameters:
+            i = self.index[cause.name, p.name]
+            value = self.coordinates[i].value(float(z[i]))
+            found[p.name] = math.remainder(value, math.tau) if p.unit == "rad" else value
+        return found
 
     def base_value(self, z: Float, name: str) -> float:
         """How far a base value is from the setup's, in its unit (SI)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -15,8 +16,10 @@ from twin.diagnosis.problem import Problem
 Float = NDArray[np.float64]
 TAIL = 4.0
 FLOOR = 0.4
-STEP = 0.02
-START_STEP = 0.1
+#: forward steps of a coordinate and of a start: a window that snatches jumps at places, and a longer step crosses more
+#: of them (0.02 crossed some in 2 windows of 150, which then outweighed all others); a shorter one sees the stepper's
+#: own tolerance
+STEP, START_STEP = 0.001, 0.01
 FAR = 8.0
 BASE_EVERY, BEGIN_EVERY = 4, 2
 #: heights of a learned term beyond which their columns are differenced as seldom as base values'
@@ -98,8 +101,9 @@ def linearise(
     *,
     base: bool = True,
     begin: bool = True,
+    step: float = STEP,
 ) -> Linear:
-    """Forward differences in every free coordinate and in the starts.
+    """Differences over `step`, forward or backward, in every free coordinate, and forward ones in the starts.
 
     From `known`, an earlier linearisation of the same model, base values' columns, and those of a learned term's many
     heights, stay unless `base` asks for new ones, the starts' unless `begin` does; the causes' are always new.
@@ -119,7 +123,7 @@ def linearise(
     else:
         own = known.starts * again
     renew = free if known is None or base else free & _quick(model)
-    columns = _globals(problem, fitted, renew, column)
+    columns = _globals(problem, fitted, renew, column, step)
     if known is not None:
         kept = free & ~renew
         columns[kept] = known.columns[kept] * again
@@ -135,9 +139,9 @@ def _quick(model: Composition) -> NDArray[np.bool_]:
     return np.array([owner not in slow for owner in owners])
 
 
-def slopes(problem: Problem, fitted: Fitted) -> Linear:
+def slopes(problem: Problem, fitted: Fitted, step: float = STEP) -> Linear:
     """Every column, anew, where a fit stands and on its own scale."""
-    return linearise(problem, fitted, scale(problem, fitted.residual), np.ones(len(fitted.z), bool))
+    return linearise(problem, fitted, scale(problem, fitted.residual), np.ones(len(fitted.z), bool), step=step)
 
 
 def _moved(starts: Float, axis: int) -> Float:
@@ -157,7 +161,9 @@ def carried(linear: Linear, before: Composition, model: Composition) -> Linear:
     return Linear(columns, linear.starts, linear.residual, prior, linear.root)
 
 
-def _globals(problem: Problem, fitted: Fitted, free: NDArray[np.bool_], column) -> Float:  # type: ignore[no-untyped-def]
+def _globals(
+    problem: Problem, fitted: Fitted, free: NDArray[np.bool_], column: Callable[[Float, float], Float], span: float
+) -> Float:
     model, z, starts = fitted.model, fitted.z, fitted.starts
     flat = len(problem.windows), problem.data.shape[1] * 2
     columns = np.zeros((len(z), *flat))
@@ -165,14 +171,14 @@ def _globals(problem: Problem, fitted: Fitted, free: NDArray[np.bool_], column) 
     for i, c in enumerate(model.coordinates):
         if c.run >= 0 or not free[i]:
             continue
-        step = -STEP if z[i] + STEP > c.high else STEP
+        step = span if c.low <= z[i] + span <= c.high else -span
         moved = z.copy()
         moved[i] += step
         columns[i] = column(problem.predict(model, moved, starts), step)
     if ofruns and free[ofruns].any():
         moved = z.copy()
-        moved[ofruns] += STEP * 5
-        every = column(problem.predict(model, moved, starts), STEP * 5)
+        moved[ofruns] += span * 5
+        every = column(problem.predict(model, moved, starts), span * 5)
         for i in ofruns:
             mine = problem.windows.run == model.coordinates[i].run
             columns[i, mine] = every[mine]

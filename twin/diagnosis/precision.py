@@ -6,12 +6,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twin.diagnosis.coordinates import STATED
-from twin.diagnosis.fit import Fitted, reduce, slopes
+from twin.diagnosis.fit import STEP, Fitted, Linear, reduce, slopes
 from twin.diagnosis.problem import Problem
 
 Float = NDArray[np.float64]
-FORM = 0.004
-WINDOWS = 1.5
+#: what a model's form costs, as a share of a size, and what the windows tell too well
+FORM, WINDOWS = 0.0025, 1.5
+#: share of a window's slopes by which those forward and backward may differ
+TORN = 0.05
+
+
+def steady(problem: Problem, fitted: Fitted) -> Linear:
+    """A fit's slopes without those of windows that jump there, where steps forward and backward disagree.
+
+    By a single one of them a fit would be sure of what nothing tells.
+    """
+    linear, back = slopes(problem, fitted), slopes(problem, fitted, -STEP)
+    change, size = (np.sqrt(np.sum(c**2, axis=2)) for c in (linear.columns - back.columns, linear.columns))
+    linear.columns[:, (change > TORN * size + 1.0).any(axis=0)] = 0.0
+    return linear
 
 
 def covariance(problem: Problem, fitted: Fitted) -> tuple[Float, Float]:
@@ -20,7 +33,7 @@ def covariance(problem: Problem, fitted: Fitted) -> tuple[Float, Float]:
     The windows' own scores say how much the fit would move (a sandwich), so noise that is not white, noise of x and
     small faults of the model count; priors enter as measurements of their own.
     """
-    linear = slopes(problem, fitted)
+    linear = steady(problem, fitted)
     reduced = reduce(linear, fitted.starts, fitted.z)
     own = linear.starts.transpose(1, 0, 2)
     right = np.einsum("wsl,wl->ws", own, linear.residual)

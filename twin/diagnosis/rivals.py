@@ -15,7 +15,8 @@ from twin.diagnosis.found import Rival
 from twin.diagnosis.misfit import error, gained, prior_price
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.score import score
-from twin.diagnosis.search import NEEDED, Search, backward, begin, hopeless, without
+from twin.diagnosis.search import Search, backward, begin, hopeless, without
+from twin.diagnosis.sound import NEEDED
 
 Float = NDArray[np.float64]
 TEMPER = 8.0

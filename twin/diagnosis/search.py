@@ -8,18 +8,15 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from stand.setup import System
 from twin.causes._kind import Cause
-from twin.diagnosis.clipped import GUIDE_END, PASSED
 from twin.diagnosis.composition import Composition
-from twin.diagnosis.coordinates import NO_FRICTION
 from twin.diagnosis.direct import screen
 from twin.diagnosis.finish import LONG, REACHED, ended, finished, regained
 from twin.diagnosis.fit import Fitted, Linear, carried, fit, slopes
 from twin.diagnosis.misfit import error, gained, misses, ranked
-from twin.diagnosis.precision import covariance
 from twin.diagnosis.problem import Problem
-from twin.diagnosis.score import Scored, score, survey
+from twin.diagnosis.score import Scored, score
+from twin.diagnosis.sound import NEEDED, sound
 from twin.diagnosis.work import Here, Work
 
 Float = NDArray[np.float64]
@@ -28,7 +25,6 @@ SHORT_LIST = 7
 FINALISTS = 4
 QUICK = 3
 MOST = 4
-NEEDED = 0.012
 NOISE = 1.12
 STRONG, LEFT = 0.9, 1.04
 #: first-order leaders that are tried before those
@@ -204,11 +200,11 @@ def forward(search: Search, causes: Sequence[Cause], progress: Callable[[str, fl
         direct = _direct(problem, search.current, left)
         tried = try_causes(problem, search.current, _offered(search, scored), direct, linear, search.work)
         search.refits += tried
-        tried = [f for f in tried if sound(problem, search.current, f)]
-        if not tried:
+        best = next((f for f in tried if sound(problem, search.current, f)), None)
+        if best is None:
             break
-        done = finished(problem, tried[0])
-        search.current = done if done is tried[0] or sound(problem, search.current, done) else tried[0]
+        done = finished(problem, best)
+        search.current = done if done is best or sound(problem, search.current, done) else best
         search.ladder.append(search.current)
 
 
@@ -240,42 +236,6 @@ def _direct(problem: Problem, fitted: Fitted, causes: Sequence[Cause]) -> list[S
     few = problem.part(telling(problem, fitted, 3))
     z = fitted.z if fitted.model.causes else fitted.model.zero()
     return screen(few, fitted.model, z, causes)[:SHORT_LIST]
-
-
-def sound(problem: Problem, before: Fitted, after: Fitted) -> bool:
-    """Whether the last cause of a fit is needed, its size more than 3 sigma from null, and itself within reason."""
-    first = not before.model.causes
-    excess = float(error(problem, before.residual).max()) - 1.0
-    needed = NEEDED if first else max(NEEDED, 0.2 * excess / (1.0 + excess))
-    if gained(problem, before, after) < needed:
-        return False
-    cause = after.model.causes[-1]
-    i = (
-        after.model.index[("base", cause.base)]
-        if cause.base
-        else after.model.index[(cause.name, cause.parameters[0].name)]
-    )
-    spread, _ = covariance(problem, after)
-    size, sigma = abs(after.z[i]), float(np.sqrt(max(spread[i, i], 0.0)))
-    if cause.base:
-        axis = problem.system is System.LINEAR_DRIVE and cause.base == "guide_friction"
-        return bool(size > 3.0 * np.hypot(NO_FRICTION if axis else 1.0, sigma))
-    reached = cause.parameters[0].name in REACHED or cause.name == "force-gauge-resonance"
-    return bool(reached or size > 3.0 * sigma) and _within_reason(problem, after, cause)
-
-
-def _within_reason(problem: Problem, fitted: Fitted, cause: Cause) -> bool:
-    """A patch is narrower than the travel, a stop stands before the guide's own end."""
-    values = fitted.model.values(fitted.z, cause)
-    if cause.name == "end-stop":
-        return abs(values["position"]) < GUIDE_END - PASSED or problem.system is System.LINEAR_DRIVE
-    if cause.name != "guide-rough-patch":
-        return True
-    low, high = survey(problem).u
-    return (
-        values["width"] < 0.6 * (high - low)
-        and low - 0.5 * values["width"] < values["centre"] < high + 0.5 * values["width"]
-    )
 
 
 def backward(search: Search) -> None:
