@@ -69,6 +69,7 @@ def settle(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
         chosen = chosen or _merged(search, ranks)
         if chosen is None:
             return ranks
+        search.sets[frozenset(c.name for c in search.current.model.causes)] = search.current
         search.current = chosen
         search.ladder.append(search.current)
         backward(search)
@@ -91,10 +92,18 @@ def _merged(search: Search, ranks: Sequence[Standing]) -> Fitted | None:
 
 
 def _rivals(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> dict[str, Fitted]:
-    """The fits with each rival in a cause's place."""
+    """The fits with each rival in a cause's place; those of a set of causes that was there before stay as they are."""
     rivals = _candidates(search, cause, catalogue)
-    promises = search.work.each(_instead, search.problem, [_place(search, cause, rival) for rival in rivals])
-    return {rival.name: promise() for rival, promise in zip(rivals, promises, strict=True)}
+    sets = {r.name: _instead_of(search, cause, r) for r in rivals}
+    new = [r for r in rivals if sets[r.name] not in search.sets]
+    promises = search.work.each(_instead, search.problem, [_place(search, cause, rival) for rival in new])
+    search.sets |= {sets[r.name]: promise() for r, promise in zip(new, promises, strict=True)}
+    return {name: search.sets[key] for name, key in sets.items()}
+
+
+def _instead_of(search: Search, cause: Cause, rival: Cause) -> frozenset[str]:
+    """The names of the model's causes with the rival in the cause's place."""
+    return frozenset({c.name for c in search.current.model.causes} - {cause.name} | {rival.name})
 
 
 def _standing(search: Search, cause: Cause, fits: Mapping[str, Fitted]) -> Standing:
@@ -148,7 +157,7 @@ def _candidates(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> lis
 
 def _place(search: Search, cause: Cause, rival: Cause) -> tuple[Fitted, Cause, Cause, Fitted | None]:
     """What `_instead` needs; last, an earlier refit of just those causes."""
-    want = {c.name for c in search.current.model.causes} - {cause.name} | {rival.name}
+    want = _instead_of(search, cause, rival)
     before = [f for f in search.refits if {c.name for c in f.model.causes} == want]
     return search.current, cause, rival, before[0] if before else None
 

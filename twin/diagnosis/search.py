@@ -39,7 +39,8 @@ FEW = 2
 @dataclass
 class Search:
     """What was tried: current fit, the base fit it began from, scores of the first round, every refit; work: who does
-    independent fits; ladder: the fits taken; less: the current one without a cause; end: it, once taken to its end.
+    independent fits; ladder: the fits taken; less: the current one without a cause; sets: fits by the names of their
+    causes, taken to their ends where they came near; end: the current fit, once taken to its end.
     """
 
     problem: Problem
@@ -51,6 +52,7 @@ class Search:
     refits: list[Fitted] = field(default_factory=list)
     ladder: list[Fitted] = field(default_factory=list)
     less: dict[tuple[frozenset[str], str], Fitted] = field(default_factory=dict)
+    sets: dict[frozenset[str], Fitted] = field(default_factory=dict)
     end: Fitted | None = None
 
     def end_current(self) -> Fitted:
