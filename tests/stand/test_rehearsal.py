@@ -19,8 +19,7 @@ def pages():
     return usage.ru_minflt + usage.ru_majflt
 
 stand = load_stand()
-if {rehearsed}:
-    assert rehearse(stand) > 3000, "the live grid never came out"
+{before}
 asked = np.arange(60) * 0.01 + np.random.default_rng(1).uniform(0, 1e-3, 60)
 aim = Aim(0.01, 1e-3, 0.0, seed=1)
 aligner = LiveAligner(stand, 7.0)
@@ -38,10 +37,37 @@ print(pages() - before)
 """
 
 
-def _pages_met(rehearsed: bool) -> int:
-    code = FIRST_FITS.format(rehearsed=rehearsed)
+REHEARSED = 'assert rehearse(stand) > 3000, "the live grid never came out"'
+UNPLUGGED = """
+from pathlib import Path
+from stand.errors import DeviceError
+from stand.excitation.spec import Excitation, Shape
+from stand.runs.order import RunOrder
+from stand.runs.rig import Rig
+from stand.runs.run import perform
+
+class Unplugged(Rig):
+    def connect(self):
+        raise DeviceError("no drive answers")
+
+order = RunOrder(Excitation(Shape.RECTANGULAR, 1.0, 0.02, cycles=3.0))
+with Unplugged(stand, lambda message: None) as rig:
+    try:
+        perform(rig, order, Path("never.h5"))
+        raise AssertionError("a run without a drive")
+    except DeviceError:
+        pass
+"""
+
+
+def _pages_met(before: str) -> int:
+    code = FIRST_FITS.format(before=before)
     return int(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
 
 
 def test_after_a_rehearsal_the_first_fits_of_the_clocks_meet_nothing_new() -> None:
-    assert 3 * _pages_met(rehearsed=True) < _pages_met(rehearsed=False)
+    assert 3 * _pages_met(REHEARSED) < _pages_met("")
+
+
+def test_a_run_has_rehearsed_before_it_connects() -> None:
+    assert 3 * _pages_met(UNPLUGGED) < _pages_met("")
