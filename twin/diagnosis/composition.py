@@ -66,10 +66,14 @@ class Composition:
             return {"difference": self.base_value(z, cause.base)}
         found = {}
         for p in cause.parameters:
-            i = self.index[cause.name, p.name]
+            i = self.place(cause, p.name)
             value = self.coordinates[i].value(float(z[i]))
             found[p.name] = math.remainder(value, math.tau) if p.unit == "rad" else value
         return found
+
+    def place(self, cause: Cause, parameter: str) -> int:
+        """Where in z a cause's parameter stands; of a cause that frees a base value, that one's place."""
+        return self.index["base", cause.base] if cause.base is not None else self.index[cause.name, parameter]
 
     def base_value(self, z: Float, name: str) -> float:
         """How far a base value is from the setup's, in its unit (SI)."""
@@ -80,7 +84,7 @@ class Composition:
         """z with a cause's parameters set."""
         z = z.copy()
         for name, value in values.items():
-            i = self.index[("base", cause.base)] if cause.base is not None else self.index[(cause.name, name)]
+            i = self.place(cause, name)
             c = self.coordinates[i]
             z[i] = (value - c.origin) / c.scale
         return z

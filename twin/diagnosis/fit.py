@@ -139,9 +139,10 @@ def _quick(model: Composition) -> NDArray[np.bool_]:
     return np.array([owner not in slow for owner in owners])
 
 
-def slopes(problem: Problem, fitted: Fitted, step: float = STEP) -> Linear:
-    """Every column, anew, where a fit stands and on its own scale."""
-    return linearise(problem, fitted, scale(problem, fitted.residual), np.ones(len(fitted.z), bool), step=step)
+def slopes(problem: Problem, fitted: Fitted, known: Linear | None = None, step: float = STEP) -> Linear:
+    """Every column, anew, where a fit stands and on its own scale; with `known`, the starts' columns from there."""
+    every = np.ones(len(fitted.z), bool)
+    return linearise(problem, fitted, scale(problem, fitted.residual), every, known, begin=known is None, step=step)
 
 
 def _moved(starts: Float, axis: int) -> Float:

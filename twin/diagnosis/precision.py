@@ -21,7 +21,8 @@ def steady(problem: Problem, fitted: Fitted) -> Linear:
 
     By a single one of them a fit would be sure of what nothing tells.
     """
-    linear, back = slopes(problem, fitted), slopes(problem, fitted, -STEP)
+    linear = slopes(problem, fitted)
+    back = slopes(problem, fitted, linear, -STEP)
     change, size = (np.sqrt(np.sum(c**2, axis=2)) for c in (linear.columns - back.columns, linear.columns))
     linear.columns[:, (change > TORN * size + 1.0).any(axis=0)] = 0.0
     return linear

@@ -33,7 +33,7 @@ def sound(problem: Problem, before: Fitted, after: Fitted) -> bool:
     if gained(problem, before, after) < needed:
         return False
     cause = after.model.causes[-1]
-    i = after.model.index[("base", cause.base) if cause.base else (cause.name, cause.parameters[0].name)]
+    i = after.model.place(cause, cause.parameters[0].name)
     spread, _ = covariance(problem, after)
     size, sigma = abs(after.z[i]), float(np.sqrt(max(spread[i, i], 0.0)))
     if cause.base:

@@ -132,7 +132,7 @@ def _cause(found: Evidence, search: Search, cause: Cause, spread: Any, rank: Sta
     values = fitted.model.values(fitted.z, cause)
     parameters: Json = {}
     for p in cause.parameters:
-        i = fitted.model.index[("base", cause.base)] if cause.base else fitted.model.index[(cause.name, p.name)]
+        i = fitted.model.place(cause, p.name)
         std = math.sqrt(max(float(spread[i, i]), 0.0)) * fitted.model.coordinates[i].scale
         null = p.value if p is cause.parameters[0] and p.name not in (*REACHED, "frequency") else 0.0
         std = stated(std, abs(values[p.name] - null), _of_setup(fitted, cause))
