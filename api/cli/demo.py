@@ -12,6 +12,8 @@ from api.cli._console import JsonOption, err, out, write_json
 from api.cli._stand import configured, serve_arguments
 from stand.errors import InputError
 
+#: effects that the demo's motion, 0.3 m/s, reaches only with another size than their usual one
+WITHIN_REACH = {"velocity-dependent-damping": "velocity-dependent-damping:threshold=0.2"}
 EXAMPLE = "stand demo --hide guide-viscous-drag --duration 10"
 
 
@@ -34,13 +36,18 @@ def command(
     order = Order(shape=Shape.TRAPEZOIDAL, frequency=1.6, amplitude=0.03, ramp=0.2, duration=duration)
     secret = "what it hides is told at the end" if hide is None else f"it hides {hide}"
     err.print(f"A simulated stand starts (seed {seed}); {secret}.")
-    with configured(None, simulated=True, arguments=serve_arguments([hidden] if hidden else [], seed)) as (rig, mock):
+    with configured(None, simulated=True, arguments=serve_arguments(_reached(hidden), seed)) as (rig, mock):
         assert mock is not None
         err.print(f"It answers at {mock.announcement['drive']['tcp']} (Modbus TCP) and on two serial lines.")
         done = execute(order, rig, folder, title="demo")
     done |= {"hidden": hidden, **_diagnose(Path(done["recording"]))}
     out.print(f"hidden was  [bold]{hidden or 'nothing'}[/bold]")
     write_json(done, json)
+
+
+def _reached(hidden: str | None) -> list[str]:
+    """What the simulated stand is told to hide."""
+    return [WITHIN_REACH.get(hidden, hidden)] if hidden else []
 
 
 def _diagnose(path: Path) -> dict[str, Any]:
