@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +14,7 @@ from stand.setup import System
 from twin.causes._kind import Undo
 from twin.diagnosis.composition import Composition, Hooks
 from twin.diagnosis.coordinates import STATED
+from twin.diagnosis.kept import Kept
 from twin.diagnosis.measured import measured_path
 from twin.diagnosis.run import LENGTH, REST, Run, Windows, half
 from twin.diagnosis.shared import shared, spread
@@ -24,18 +24,10 @@ from twin.kernels import composed_slots as k
 
 Float = NDArray[np.float64]
 Index = NDArray[np.int64]
-T = TypeVar("T")
 DEGREE = 4
 FINE = 5e-4  # s between samples at which local polynomials follow any motion of a stand
 #: a start's rim: displaced so far to feel its stiffness, moved no farther at once nor more often, and settled, m
 NUDGE, FARTHEST, BALANCED, SETTLED = 2e-6, 1e-3, 5, 1e-9
-
-
-class _Kept(threading.local):
-    """What depends on few parameters only; each thread its own."""
-
-    def __init__(self) -> None:
-        self.found: dict[Any, Any] = {}
 
 
 @dataclass
@@ -44,7 +36,7 @@ class Problem:
 
     runs: tuple[Run, ...]
     windows: Windows
-    _kept: _Kept = field(default_factory=_Kept)
+    _kept: Kept = field(default_factory=Kept)
 
     def __post_init__(self) -> None:
         self.system = self.runs[0].setup.system
@@ -93,47 +85,52 @@ class Problem:
         """[w, LENGTH, 2]."""
         return self.windows.data
 
-    def predict(self, model: Composition, z: Float, starts: Float) -> Float:
-        """What the gauges would have told, [w, LENGTH, 2]; starts [w, 4]: from the reconstruction, in `spread`s."""
-        simulated, _ = self.simulate(model, z, starts)
-        return self.sense(model, z, simulated)
+    def predict(self, model: Composition, z: Float, starts: Float, own: Float | None = None) -> Float:
+        """What the gauges would have told, [w, LENGTH, 2]; starts [w, 4]: from the reconstruction, in `spread`s.
 
-    def simulate(self, model: Composition, z: Float, starts: Float) -> tuple[Float, NDArray[np.int64]]:
+        own [w, STATES]: the causes' own states there, where they are known. The last prediction is kept: a fit asks for
+        it twice.
+        """
+        last = self._kept.last
+        if own is None and last and model is last[0] and np.array_equal(z, last[1]) and np.array_equal(starts, last[2]):
+            return last[3]
+        simulated, _ = self.simulate(model, z, starts, own)
+        told = self.sense(model, z, simulated)
+        if own is None:
+            self._kept.last = model, z.copy(), starts.copy(), told
+        return told
+
+    def simulate(
+        self, model: Composition, z: Float, starts: Float, own: Float | None = None
+    ) -> tuple[Float, NDArray[np.int64]]:
         """True signals [w, LENGTH, 5] and each window's status."""
         undo = model.undo(z)
         constants = self._constants(model, z, undo)
         drive = self._driven(model, z)
         before, after = model.hooks(z, "before"), model.hooks(z, "after")
-        own = self._own(model, z, constants, drive, undo, before, after)
+        if own is None:
+            own = self._own(model, z, constants, drive, undo, before, after)
         centre = self._centres(model, z, constants, drive, before, after, own)
         state = np.ascontiguousarray(centre + starts * self.spread)
         return self._carry(state, own, constants, drive, before, after, LENGTH)
+
+    def states(self, model: Composition, z: Float) -> Float:
+        """The causes' own states at the windows' starts, [w, STATES]."""
+        undo, drive = model.undo(z), self._driven(model, z)
+        constants = self._constants(model, z, undo)
+        return self._own(model, z, constants, drive, undo, model.hooks(z, "before"), model.hooks(z, "after"))
 
     def _constants(self, model: Composition, z: Float, undo: Undo) -> Float:
         """Every run's constants; they hang on the base values and the true rest forces alone."""
         rest = [(r.rest_force - undo.F_offset - undo.F_rate * 0.5 * REST) / undo.F_gain for r in self.runs]
         stated = tuple(float(v) for v, c in zip(z, model.coordinates, strict=True) if c.owner in STATED)
         key = ("constants", tuple(c.name for c in model.causes), stated, tuple(rest))
-        return self._keep(key, 5, lambda: model.constants(z, rest))
+        return self._kept.keep(key, 5, lambda: model.constants(z, rest))
 
     def forget_states(self) -> None:
         """Drops the causes' own states, which hang a little on the base values at which they were had first."""
-        self._forget("own", 0)
-
-    def _keep(self, key: tuple[Any, ...], most: int, make: Callable[[], T]) -> T:
-        """What `make` makes, made once; of each kind, which the key begins with, only the newest are kept."""
-        if key not in self._kept.found:
-            made = make()
-            self._forget(key[0], most - 1)
-            self._kept.found[key] = made
-        kept: T = self._kept.found[key]
-        return kept
-
-    def _forget(self, kind: str, most: int) -> None:
-        """Drops all but the newest of a kind."""
-        mine = [key for key in self._kept.found if key[0] == kind]
-        for old in mine[: max(len(mine) - most, 0)]:
-            del self._kept.found[old]
+        self._kept.forget("own")
+        self._kept.last = None
 
     def sense(self, model: Composition, z: Float, simulated: Float) -> Float:
         """The gauges' readings of simulated windows."""
@@ -155,7 +152,7 @@ class Problem:
         if not len(hooks.address):
             return self.drive
         key = ("drive", hooks.address.tobytes(), hooks.p.tobytes())
-        return self._keep(key, 1, lambda: self._moved(hooks))
+        return self._kept.keep(key, 1, lambda: self._moved(hooks))
 
     def _moved(self, hooks: Hooks) -> Float:
         parts = []
@@ -185,7 +182,7 @@ class Problem:
             return own
 
         values = tuple(v for c in model.causes for v in model.values(z, c).values())
-        return self._keep(("own", tuple(c.name for c in model.causes), values), len(values) + 6, fill)
+        return self._kept.keep(("own", tuple(c.name for c in model.causes), values), len(values) + 6, fill)
 
     def _history(
         self, coasts: bool, r: int, own: Float, constants: Float, drive: Float, undo: Undo, before: Hooks, after: Hooks
@@ -195,7 +192,10 @@ class Problem:
             return
         last = int(self.windows.first[mine].max()) + 2
         ends = drive[self.offset[r] : self.offset[r] + last]
-        path, force = measured_path(run, ends, constants[r], undo, last)
+        asked = r, last, id(drive), constants[r, k.K_C1] / constants[r, k.K_C2], undo
+        path, force, _ = self._kept.keep(
+            ("path", *asked), 2 * len(self.runs), lambda: (*measured_path(run, ends, constants[r], undo, last), drive)
+        )
         out = np.empty((last, k.STATES))
         composed.history(
             path, force, ends, constants[r], np.zeros((1, k.STATES)), self.dt,
@@ -265,7 +265,7 @@ class Problem:
 
     def _local(self, channel: int, places: Index) -> tuple[Float, Float, Float]:
         """Value, rate and second derivative about samples `places` after the starts; kept."""
-        return self._keep((f"local {channel}", places.tobytes()), 16, lambda: self._fit(channel, places))
+        return self._kept.keep((f"local {channel}", places.tobytes()), 16, lambda: self._fit(channel, places))
 
     def _fit(self, channel: int, shift: Index) -> tuple[Float, Float, Float]:
         w = self.windows
