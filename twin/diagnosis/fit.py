@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.coordinates import STATED
+from twin.diagnosis.normal import Linear, Reduced, reduce, solve
 from twin.diagnosis.problem import Problem
 
 Float = NDArray[np.float64]
@@ -26,6 +27,9 @@ BASE_EVERY, BEGIN_EVERY = 4, 2
 MANY = 30
 #: relative gain in cost at which a fit ends that something hangs on: about one in chi^2
 FINE = 1e-5
+#: of chi^2 for each sample by which a fit may be behind another for the two to be near, and how many times the pace of
+#: the better of its last two steps a fit that chases another is trusted to keep up
+NEAR, PACE = 0.03, 2.0
 
 
 @dataclass(frozen=True)
@@ -42,24 +46,9 @@ class Fitted:
     scores: Float | None = None
 
 
-@dataclass(frozen=True)
-class Linear:
-    """Weighted columns around a point: globals [p, w, 2 LENGTH], starts [4, w, 2 LENGTH], residual [w, 2 LENGTH]."""
-
-    columns: Float
-    starts: Float
-    residual: Float
-    prior: Float
-    root: Float
-
-    def part(self, keep: NDArray[np.intp]) -> Linear:
-        """The same on some of the windows."""
-        return Linear(self.columns[:, keep], self.starts[:, keep], self.residual[keep], self.prior, self.root[keep])
-
-
-def residual(problem: Problem, model: Composition, z: Float, starts: Float) -> Float:
-    """Data minus prediction, zero where a sample doesn't count; 1e3 sigma at most."""
-    left = problem.data - problem.predict(model, z, starts)
+def residual(problem: Problem, model: Composition, z: Float, starts: Float, own: Float | None = None) -> Float:
+    """Data minus prediction (own as there), zero where a sample doesn't count; 3e3 sigma at most."""
+    left = problem.data - problem.predict(model, z, starts, own)
     limit = 3e3 * problem.sigma[:, None, :]
     left = np.where(np.isfinite(left), np.clip(left, -limit, limit), limit)
     left[~problem.windows.use] = 0.0
@@ -186,56 +175,6 @@ def _globals(
     return columns
 
 
-@dataclass(frozen=True)
-class Reduced:
-    """Normal equations of the globals after the starts' elimination; back: how starts follow a step."""
-
-    matrix: Float
-    vector: Float
-    starts_matrix: Float
-    starts_vector: Float
-    cross: Float
-
-    def follow(self, step: Float) -> Float:
-        """The starts' step [w, 4] that goes with a step of the globals."""
-        right = self.starts_vector - np.einsum("wps,p->ws", self.cross, step)
-        return np.linalg.solve(self.starts_matrix, right[..., None])[..., 0]
-
-
-def reduce(linear: Linear, starts: Float, z: Float) -> Reduced:
-    """Schur complement over each window's start."""
-    J, S, r = linear.columns, linear.starts, linear.residual
-    own = S.transpose(1, 0, 2)
-    matrix = own @ own.transpose(0, 2, 1) + np.eye(4)
-    vector = np.einsum("wsl,wl->ws", own, r) - starts
-    cross = J.transpose(1, 0, 2) @ own.transpose(0, 2, 1)
-    solved = np.linalg.solve(matrix, np.concatenate([cross.transpose(0, 2, 1), vector[..., None]], axis=2))
-    each = J.transpose(1, 0, 2)  # window by window: small products stay in one thread
-    H = (each @ J.transpose(1, 2, 0)).sum(axis=0) - (cross @ solved[..., :-1]).sum(axis=0)
-    g = np.einsum("pwl,wl->p", J, r) - np.einsum("wps,ws->p", cross, solved[..., -1])
-    return Reduced(H + np.diag(linear.prior), g - linear.prior * z, matrix, vector, cross)
-
-
-def solve(reduced: Reduced, z: Float, low: Float, high: Float, free: NDArray[np.bool_], damping: float) -> Float:
-    """A damped step within bounds: coordinates that would leave them stop there and the others are solved again."""
-    step = np.zeros(len(z))
-    held = ~free
-    for _ in range(4):
-        open_ = ~held
-        if not open_.any():
-            break
-        H = reduced.matrix[np.ix_(open_, open_)]
-        H = H + damping * np.diag(np.diag(H)) + 1e-9 * np.eye(len(H))
-        g = reduced.vector[open_] - reduced.matrix[np.ix_(open_, held)] @ step[held]
-        step[open_] = np.linalg.lstsq(H, g, rcond=1e-12)[0]
-        beyond = open_ & ((z + step < low - 1e-12) | (z + step > high + 1e-12))
-        if not beyond.any():
-            break
-        step[beyond] = np.clip(z + step, low, high)[beyond] - z[beyond]
-        held = held | beyond
-    return np.clip(z + step, low, high) - z
-
-
 def fit(
     problem: Problem,
     model: Composition,
@@ -247,9 +186,10 @@ def fit(
     tolerance: float = 2e-4,
     reach: float = 12.0,
     known: Linear | None = None,
+    against: Fitted | None = None,
 ) -> Fitted:
     """Minimise the robust cost from z and starts; `fixed` coordinates stay. known: a linearisation there, if there is
-    one.
+    one; against: a fit of the same windows, and this one is given up where at its pace it can't come near that.
 
     What changes slowly is differenced anew every few turns only, and where a step fails or hardly gains.
     """
@@ -260,8 +200,12 @@ def fit(
     left = residual(problem, model, z, starts)
     fitted = Fitted(model, z, starts, left, 0.0)
     damping, reduced, linear = 1e-6, None, known
-    age, anew = 0, False
-    for _ in range(iterations):
+    age, anew, gaps = 0, False, []
+    for turn in range(iterations):
+        if against is not None:
+            gaps.append(behind(problem, fitted, against))
+            if _lost(gaps, iterations - turn):
+                break
         spread = scale(problem, fitted.residual)
         cost = loss(fitted.residual, spread) + prior_cost(model, fitted.z, fitted.starts)
         anew = anew or linear is None or age >= BASE_EVERY
@@ -281,6 +225,23 @@ def fit(
             break
         anew = gained < tolerance
     return replace(fitted, information=None if reduced is None else reduced.matrix)
+
+
+def behind(problem: Problem, fitted: Fitted, other: Fitted) -> float:
+    """How much more a fit leaves than another that is near it: in the robust loss, for a window astray is no
+    difference; negative where the two are near.
+    """
+    spread = np.minimum(scale(problem, fitted.residual), scale(problem, other.residual))
+    more = loss(fitted.residual, spread) - loss(other.residual, spread)
+    return more - NEAR * np.count_nonzero(problem.windows.use)
+
+
+def _lost(gaps: Sequence[float], left: int) -> bool:
+    """Whether what was behind by so much at each turn stays behind for all the turns that are left."""
+    if len(gaps) < 3:
+        return False
+    pace = max(gaps[-3] - gaps[-2], gaps[-2] - gaps[-1], 0.0)
+    return gaps[-1] > PACE * pace * left
 
 
 def _descend(

@@ -6,6 +6,10 @@ import threading
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
+Float = NDArray[np.float64]
 T = TypeVar("T")
 
 
@@ -16,7 +20,7 @@ class Kept(threading.local):
     """
 
     def __init__(self) -> None:
-        self.last: tuple[Any, ...] | None = None
+        self.last: tuple[Any, Float, Float, Float] | None = None
         self._found: dict[tuple[Any, ...], Any] = {}
 
     def keep(self, key: tuple[Any, ...], most: int, make: Callable[[], T]) -> T:

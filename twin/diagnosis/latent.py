@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from stand.setup import System
 from twin.causes._kind import Cause
 from twin.diagnosis.composition import Composition
-from twin.diagnosis.fit import Fitted, Linear, Reduced, reduce, scale, slopes, weigh
+from twin.diagnosis.fit import Fitted, scale, slopes, weigh
+from twin.diagnosis.normal import Linear, Reduced, reduce
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.run import LENGTH
 from twin.kernels import composed_latent as kernels
@@ -117,11 +118,13 @@ def _grams(
     hook, function, size, _ = PLACES[place]
     root = np.sqrt(weigh(fitted.residual, spread)) / spread * problem.windows.use
     here = problem.predict(fitted.model, fitted.z, fitted.starts)
+    states = problem.states(fitted.model, fitted.z)
     columns = []
     for h in range(kernels.TRAIN):
         cause = _pseudo(f"hat {h} at the {place}", hook, function, (size, float(h), SPACING * problem.dt))
         model = Composition(fitted.model.setups, (*fitted.model.causes, cause))
-        there = problem.predict(model, fitted.model.carry(fitted.z, model), fitted.starts)
+        z = fitted.model.carry(fitted.z, model)
+        there = problem.predict(model, z, fitted.starts, states if cause.apart else None)
         columns.append(np.nan_to_num((there - here) / size * root).reshape(len(here), -1))
     d = np.array(columns).transpose(1, 0, 2)
     own = linear.starts.transpose(1, 0, 2)

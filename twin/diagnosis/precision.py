@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from twin.diagnosis.coordinates import STATED
-from twin.diagnosis.fit import STEP, Fitted, Linear, reduce, slopes
+from twin.diagnosis.fit import STEP, Fitted, slopes
+from twin.diagnosis.normal import Linear, reduce
 from twin.diagnosis.problem import Problem
 
 Float = NDArray[np.float64]

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from twin.causes._kind import Cause
 from twin.diagnosis.finish import ended, regained
-from twin.diagnosis.fit import Fitted, fit, loss, scale, slopes
+from twin.diagnosis.fit import Fitted, behind, fit, loss, scale, slopes
 from twin.diagnosis.found import Rival
 from twin.diagnosis.misfit import error, gained, prior_price
 from twin.diagnosis.problem import Problem
-from twin.diagnosis.score import score
+from twin.diagnosis.score import Scored, score
 from twin.diagnosis.search import Search, backward, begin, hopeless, without
 from twin.diagnosis.sound import NEEDED
 
@@ -29,8 +29,8 @@ ALIKE = 40.0
 MOST = 4
 SWAPS = 3
 CLEARLY = 30.0
-#: of chi^2 for each sample by which a rival may be behind the final model, for its fit to be taken to its end
-NEAR = 0.03
+#: iterations of a rival's refit, from its first-order trial and from an earlier refit of the same causes
+ANEW, AGAIN = 10, 6
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,8 @@ def _rivals(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> dict[st
     rivals = _candidates(search, cause, catalogue)
     sets = {r.name: _instead_of(search, cause, r) for r in rivals}
     new = [r for r in rivals if sets[r.name] not in search.sets]
-    promises = search.work.each(_instead, search.problem, [_place(search, cause, rival) for rival in new])
+    jobs = [(search.current, *begun) for begun in _begun(search, cause, new)]
+    promises = search.work.each(_instead, search.problem, jobs)
     search.sets |= {sets[r.name]: promise() for r, promise in zip(new, promises, strict=True)}
     return {name: search.sets[key] for name, key in sets.items()}
 
@@ -155,25 +156,35 @@ def _candidates(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> lis
     return [known[n] for n in order if n in known and n not in named][:MOST]
 
 
-def _place(search: Search, cause: Cause, rival: Cause) -> tuple[Fitted, Cause, Cause, Fitted | None]:
-    """What `_instead` needs; last, an earlier refit of just those causes."""
-    want = _instead_of(search, cause, rival)
-    before = [f for f in search.refits if {c.name for c in f.model.causes} == want]
-    return search.current, cause, rival, before[0] if before else None
-
-
-def _instead(problem: Problem, final: Fitted, cause: Cause, rival: Cause, before: Fitted | None) -> Fitted:
-    """The final model with the rival in the cause's place, from where the rival's own refit stands or its best
-    trial.
+def _begun(search: Search, cause: Cause, rivals: Sequence[Cause]) -> list[tuple[Fitted, int]]:
+    """Where each rival's refit in the cause's place begins, and its iterations: from an earlier refit of just those
+    causes, or from its best trial on the model without the cause; 0 where no trial shows anything.
     """
-    if before is not None:
-        return _matched(problem, final, fit(problem, before.model, before.z, before.starts, iterations=6))
-    less = without(problem, final, cause, iterations=3)
-    scored = score(problem, less, [rival], slopes(problem, less))[0]
-    if not scored.trials:
-        return less
-    model, z = begin(less, scored)
-    return _matched(problem, final, fit(problem, model, z, less.starts, iterations=10))
+    problem = search.problem
+    earlier = {frozenset(c.name for c in f.model.causes): f for f in reversed(search.refits)}
+    before = {r.name: earlier.get(_instead_of(search, cause, r)) for r in rivals}
+    new = [r for r in rivals if before[r.name] is None]
+    anew: dict[str, tuple[Fitted, int]] = {}
+    if new:
+        less = search.lacking([cause])[0]
+        for scored in search.work.each(_scored, problem, [(less, new)])[0]():
+            anew[scored.cause.name] = less, 0
+            if scored.trials:
+                model, z = begin(less, scored)
+                anew[scored.cause.name] = replace(less, model=model, z=z), ANEW
+    return [(f, AGAIN) if (f := before[r.name]) is not None else anew[r.name] for r in rivals]
+
+
+def _scored(problem: Problem, less: Fitted, rivals: Sequence[Cause]) -> list[Scored]:
+    return score(problem, less, rivals, slopes(problem, less))
+
+
+def _instead(problem: Problem, final: Fitted, begun: Fitted, iterations: int) -> Fitted:
+    """A rival's refit in a cause's place."""
+    if not iterations:
+        return begun
+    fitted = fit(problem, begun.model, begun.z, begun.starts, iterations=iterations, against=final)
+    return _matched(problem, final, fitted)
 
 
 def _matched(problem: Problem, final: Fitted, rival: Fitted) -> Fitted:
@@ -183,10 +194,8 @@ def _matched(problem: Problem, final: Fitted, rival: Fitted) -> Fitted:
 
 
 def _near(problem: Problem, final: Fitted, rival: Fitted) -> bool:
-    """Whether a rival leaves hardly more: in the robust loss, for a window astray is no difference."""
-    spread = np.minimum(scale(problem, final.residual), scale(problem, rival.residual))
-    beyond = loss(rival.residual, spread) - loss(final.residual, spread)
-    return bool(beyond < NEAR * np.count_nonzero(problem.windows.use))
+    """Whether a rival leaves hardly more."""
+    return behind(problem, rival, final) < 0.0
 
 
 def tried(search: Search, ranks: Sequence[Standing]) -> tuple[Rival, ...]:

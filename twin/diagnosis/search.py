@@ -12,8 +12,9 @@ from twin.causes._kind import Cause
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.direct import screen
 from twin.diagnosis.finish import LONG, REACHED, ended, finished, regained
-from twin.diagnosis.fit import Fitted, Linear, carried, fit, slopes
+from twin.diagnosis.fit import Fitted, carried, fit, slopes
 from twin.diagnosis.misfit import error, gained, misses, ranked
+from twin.diagnosis.normal import Linear
 from twin.diagnosis.problem import Problem
 from twin.diagnosis.score import Scored, score
 from twin.diagnosis.sound import NEEDED, sound
@@ -126,12 +127,9 @@ def try_causes(
         if settled is None and error(few, begun[-1].residual).max() < NOISE:
             settled = set(s.cause.rivals)
     begun = [p() for p in work.each(_whole, problem, [(fitted, f, keep) for f in ranked(few, begun)])]
-    done: list[Fitted] = []
-    finalists = begun[:FINALISTS]
-    for f, promise in zip(finalists, work.each(_long_fit, problem, [(f,) for f in finalists]), strict=True):
-        if done and _behind(problem, f, done[0]):
-            continue
-        done = ranked(problem, [*done, promise()])
+    done = [p() for p in work.each(_long_fit, problem, [(f, None) for f in begun[:1]])]
+    others = [f for f in begun[1:FINALISTS] if not _behind(problem, f, done[0])]
+    done = ranked(problem, [*done, *(p() for p in work.each(_long_fit, problem, [(f, done[0]) for f in others]))])
     names = {_last(f) for f in done}
     return done + [f for f in begun if _last(f) not in names]
 
@@ -172,8 +170,8 @@ def _begin_fit(problem: Problem, fitted: Fitted, scored: Scored, known: Linear |
     return fit(problem, model, z, settled.starts, iterations=QUICK + 1)
 
 
-def _long_fit(problem: Problem, begun: Fitted) -> Fitted:
-    return regained(problem, fit(problem, begun.model, begun.z, begun.starts, iterations=LONG))
+def _long_fit(problem: Problem, begun: Fitted, leader: Fitted | None) -> Fitted:
+    return regained(problem, fit(problem, begun.model, begun.z, begun.starts, iterations=LONG, against=leader))
 
 
 def _last(fitted: Fitted) -> str:
