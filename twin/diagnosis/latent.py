@@ -29,6 +29,8 @@ KNOTS, FINER = (8, 16, 28), (50, 80)
 #: along which a term may be as fine as the pitch of a screw or of a rack
 POSITIONS = ("weight_position", "drive_position", "pulley_angle")
 PRICE = 14.0
+#: frequencies that are tried together
+AT_ONCE = 50
 PLACES: Mapping[str, tuple[str, Any, float, str]] = {
     "guide": ("after", kernels.guide_hat, 0.5, "N"),
     "pulley": ("after", kernels.rim_hat, 0.5, "N"),
@@ -191,19 +193,20 @@ def _normal(grams: Grams, phi: Float, inverse: Float, vector: Float) -> tuple[Fl
 def _sinusoid(problem: Problem, place: str, grams: Grams, at: Float) -> Term:
     """A vibration of one frequency, its phase and size each run's own."""
     frequencies = np.arange(2.0, 62.0, 0.05)
-    gains = np.zeros(len(frequencies))
-    amplitude = np.zeros(len(frequencies))
-    for i, f in enumerate(frequencies):
-        phase = 2 * np.pi * f * at
+    gains, amplitude = np.zeros(len(frequencies)), np.zeros(len(frequencies))
+    few = range(0, len(frequencies), AT_ONCE)
+    for some in (slice(first, first + AT_ONCE) for first in few):
+        phase = 2 * np.pi * frequencies[some, None, None] * at
         phi = np.stack([np.cos(phase), np.sin(phase)], axis=-1)
-        each = phi.transpose(0, 2, 1) @ grams.matrix @ phi
-        b = np.einsum("whk,wh->wk", phi, grams.vector)
+        each = phi.swapaxes(2, 3) @ (grams.matrix @ phi)
+        b = (phi * grams.vector[..., None]).sum(axis=2)
         for run in range(len(problem.runs)):
             mine = problem.windows.run == run
             if mine.any():
-                y = np.linalg.solve(each[mine].sum(axis=0) + 1e-9 * np.eye(2), b[mine].sum(axis=0))
-                gains[i] += float(b[mine].sum(axis=0) @ y)
-                amplitude[i] += float(np.hypot(*y)) / len(problem.runs)
+                right = b[:, mine].sum(axis=1)
+                y = np.linalg.solve(each[:, mine].sum(axis=1) + 1e-9 * np.eye(2), right[..., None])[..., 0]
+                gains[some] += np.sum(right * y, axis=1)
+                amplitude[some] += np.hypot(y[:, 0], y[:, 1]) / len(problem.runs)
     best = int(np.argmax(gains))
     gain = float(gains[best]) - PRICE * (2 * len(problem.runs) + 4)
     f = float(frequencies[best])

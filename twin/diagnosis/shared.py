@@ -2,18 +2,34 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
+from functools import partial
 from itertools import pairwise
+from typing import TypeVar
 
-import numpy as np
-
-HELPERS = 1
+R = TypeVar("R")
 #: pieces that equal work is cut into: windows with snatches in them take longer than others
-PIECES = 6
+PIECES = 8
 #: window samples below which handing over costs more than it gains
 WORTH = 1500
-_POOL = ThreadPoolExecutor(HELPERS)
+_POOL = ThreadPoolExecutor(1)
+_IDLE = threading.Semaphore(1)  # the helper, while it has nothing to do
+
+
+def handed(job: Callable[[], R]) -> Future[R] | None:
+    """A job that the helper begins at once; None, and nothing is begun, where it is busy."""
+    if not _IDLE.acquire(blocking=False):
+        return None
+
+    def done() -> R:
+        try:
+            return job()
+        finally:
+            _IDLE.release()
+
+    return _POOL.submit(done)
 
 
 def shared(jobs: Sequence[Callable[[], None]]) -> None:
@@ -28,13 +44,41 @@ def shared(jobs: Sequence[Callable[[], None]]) -> None:
             for _ in left:
                 pass
 
-    others = [_POOL.submit(take) for _ in range(min(HELPERS, len(jobs) - 1))]
+    other = handed(take) if len(jobs) > 1 else None
     try:
         take()
     finally:  # also then nobody writes on behind the caller's back
-        for other in others:
-            if not other.cancel():
-                other.result()
+        if other is not None:
+            other.result()
+
+
+def in_turn(jobs: Sequence[Callable[[], R]]) -> list[Callable[[], R]]:
+    """Promises of the jobs' results, to be asked for in their order: with each, the next one is begun as well, and no
+    other. Jobs must not hang on one another.
+    """
+    begun: dict[int, Future[R]] = {}
+
+    def promise(i: int) -> R:
+        following = i + 1 if i + 1 < len(jobs) and i + 1 not in begun else None
+        if i not in begun:
+            if following is not None and (its := handed(jobs[following])) is not None:
+                begun[following] = its
+            begun[i] = _done(jobs[i])
+        elif following is not None and not begun[i].done():  # the helper is at it
+            begun[following] = _done(jobs[following])
+        return begun[i].result()
+
+    return [partial(promise, i) for i in range(len(jobs))]
+
+
+def _done(job: Callable[[], R]) -> Future[R]:
+    """A job that is done here and now, told when it is asked for."""
+    future: Future[R] = Future()
+    try:
+        future.set_result(job())
+    except Exception as error:
+        future.set_exception(error)
+    return future
 
 
 def spread(n: int, samples: int, work: Callable[[int, int], None]) -> None:
@@ -42,8 +86,9 @@ def spread(n: int, samples: int, work: Callable[[int, int], None]) -> None:
     if n * samples < WORTH or n < 2:
         work(0, n)
         return
-    cuts = np.unique(np.linspace(0, n, PIECES + 1).astype(int))
-    shared([_piece(work, int(a), int(b)) for a, b in pairwise(cuts)])
+    pieces = min(PIECES, n)
+    cuts = [n * i // pieces for i in range(pieces + 1)]
+    shared([_piece(work, a, b) for a, b in pairwise(cuts)])
 
 
 def _piece(work: Callable[[int, int], None], first: int, last: int) -> Callable[[], None]:

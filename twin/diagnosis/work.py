@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, Protocol, Self, TypeVar
 
 import twin.causes
 from stand.errors import InputError, StandError
 from twin.diagnosis.problem import Problem
+from twin.diagnosis.shared import in_turn
 from twin.kernels.jit import cache_folder
 
 R = TypeVar("R")
@@ -23,7 +25,7 @@ class Work(Protocol):
 
 
 class Here:
-    """In this process, when asked."""
+    """In this process, when asked, two at a time."""
 
     def __enter__(self) -> Self:
         return self
@@ -34,8 +36,8 @@ class Here:
     def each(
         self, function: Callable[..., R], problem: Problem, jobs: Sequence[tuple[Any, ...]]
     ) -> list[Callable[[], R]]:
-        """Nothing is done before a promise is called."""
-        return [_later(function, problem, job) for job in jobs]
+        """Nothing is done before a promise is called, and no more than the job after it besides."""
+        return in_turn([partial(_afresh, function, problem, job) for job in jobs])
 
 
 class Dask:
@@ -93,10 +95,6 @@ class Dask:
 
     def __exit__(self, *why: object) -> None:
         self._client.close()
-
-
-def _later(function: Callable[..., R], problem: Problem, job: tuple[Any, ...]) -> Callable[[], R]:
-    return lambda: _afresh(function, problem, job)
 
 
 def _afresh(function: Callable[..., R], problem: Problem, job: tuple[Any, ...]) -> R:
