@@ -68,6 +68,16 @@ def test_help_lists_every_command_found_in_the_folder() -> None:
         assert f"\n  {name} " in text
 
 
+@pytest.mark.parametrize("list_", ["models", "situations", "profiles", "doctor"])
+def test_a_list_that_needs_no_kernel_does_not_wait_for_the_compiler(list_: str) -> None:
+    said = subprocess.run(
+        [sys.executable, "-X", "importtime", "-m", "api.cli", list_], capture_output=True, text=True, timeout=60
+    )
+    assert said.returncode == 0
+    assert "api.cli._build" in said.stderr
+    assert "llvmlite" not in said.stderr
+
+
 def test_help_comes_quickly() -> None:
     """Median of three: 0.4 s is what a person takes for at once (0.17 s when quiet; doubled under load)."""
     seconds = []

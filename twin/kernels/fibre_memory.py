@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from twin.kernels.fibre_tableau import STAGES
 from twin.kernels.jit import part
-
-
-def memory(unknowns: int, half_band: int, inner: int, order: int) -> int:
-    """Places that `fibre_step` needs behind q, v, a and z; zeros mean that nothing is remembered."""
-    padded = unknowns + half_band
-    return 3 + inner + (2 * STAGES[order] + 2) * unknowns + padded * (2 * half_band + 2)
 
 
 @part

@@ -6,11 +6,8 @@ import math
 
 import numpy as np
 
-from stand.errors import InputError
 from twin.kernels.jit import part
 
-#: stages by order
-STAGES = {2: 2, 4: 6}
 _G = 1.0 - 1.0 / math.sqrt(2.0)
 
 #: Alexander 1977, Theorem 5; the last column: the stages' times
@@ -35,13 +32,6 @@ _FOUR = np.array(
         [82889 / 524892, 0.0, 15625 / 83664, 69875 / 102672, -2260 / 8211, 1 / 4, 1.0],
     ]
 )
-
-
-def order_of(order: float) -> int:
-    """The order as a whole number; InputError where there is no method of that order."""
-    if order not in STAGES:
-        raise InputError("no method of that order", where="order", value=order, remedy="2 or 4")
-    return int(order)
 
 
 @part

@@ -11,8 +11,7 @@ from stand.setup import Setup, System
 from twin.friction import packed
 from twin.kernels import fibre_ancf_layout as layout
 from twin.kernels.fibre_layout import LENGTH, RADIUS, RIG, pack_rig
-from twin.kernels.fibre_memory import memory
-from twin.kernels.fibre_tableau import order_of
+from twin.kernels.fibre_order import memory, order_of
 from twin.model import FibreModel, Float, Start
 from twin.models._mesh import mesh, rest, trimmed
 from twin.models._place import Placed, place

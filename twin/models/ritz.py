@@ -29,7 +29,7 @@ from twin.kernels.fibre_layout import (
     WTY,
     pack_rig,
 )
-from twin.kernels.fibre_memory import memory
+from twin.kernels.fibre_order import memory
 from twin.model import FibreModel, Float, Start
 from twin.parameter import Parameter, Source
 
