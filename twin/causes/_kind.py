@@ -123,13 +123,6 @@ class Cause:
         return named, (self.name,)  # hooks are addresses in this process: elsewhere the catalogue has its own
 
     @property
-    def apart(self) -> bool:
-        """Whether, to first order, other causes' own states are what they are without it: they follow the motion and
-        the pull as measured, and it has no part in how these are read.
-        """
-        return self.base is None and not self.states and self.moves is None and self.undo is no_undo
-
-    @property
     def null(self) -> dict[str, float]:
         """Every parameter at its null or first value."""
         return {p.name: p.value for p in self.parameters}

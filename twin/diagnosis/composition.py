@@ -39,7 +39,7 @@ class Composition:
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Base values, runs' offsets, then the causes' parameters."""
         freed = frozenset(c.base for c in self.causes if c.base is not None)
-        found = base(self.setups, freed, frozenset(c.name for c in self.causes))
+        found = base(self.setups, freed, frozenset(self.names))
         if self.setups[0].system is System.WFPD:
             found += offsets(len(self.setups), any(c.rest_free for c in self.causes))
         for cause in self.causes:
@@ -50,6 +50,21 @@ class Composition:
     def index(self) -> dict[tuple[str, str], int]:
         """Place of (owner, name) in z, runs' offsets apart."""
         return {(c.owner, c.name): i for i, c in enumerate(self.coordinates) if c.run < 0}
+
+    @cached_property
+    def low(self) -> Float:
+        """The coordinates' lower bounds."""
+        return np.array([c.low for c in self.coordinates])
+
+    @cached_property
+    def high(self) -> Float:
+        """Their upper bounds."""
+        return np.array([c.high for c in self.coordinates])
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """The causes' names."""
+        return tuple(c.name for c in self.causes)
 
     def zero(self) -> Float:
         """The setup as stated, and every cause at null."""
@@ -117,9 +132,23 @@ class Composition:
 
     def constants(self, z: Float, rest: Sequence[float]) -> Float:
         """[runs, CONSTANTS]; rest: each run's true rest tension, N."""
-        return np.array([self._row(z, run, rest[run]) for run in range(len(self.setups))])
+        rows = {first: self._row(z, first) for first in set(self._alike)}
+        found = np.array([rows[first] for first in self._alike])
+        if self.setups[0].system is System.WFPD:
+            found[:, k.K_REST] = rest
+        for i, c in enumerate(self.coordinates):
+            if c.owner == "run":
+                found[c.run, k.K_OFFSET] = c.value(float(z[i]))
+        return found
 
-    def _row(self, z: Float, run: int, rest: float) -> Float:
+    @cached_property
+    def _alike(self) -> tuple[int, ...]:
+        """Of each run, the first with the same setup but for the measured friction, which has no part here."""
+        plain = [s.with_values(guide_friction_curve=None) for s in self.setups]
+        return tuple(plain.index(s) for s in plain)
+
+    def _row(self, z: Float, run: int) -> Float:
+        """What hangs on a run's setup."""
         s = self.setup(z, run)
         row = np.zeros(k.CONSTANTS)
         row[k.K_SYSTEM] = _SYSTEM[s.system]
@@ -135,15 +164,8 @@ class Composition:
         row[[k.K_MASS, k.K_WEIGHT]] = s.mass, s.rest_tension
         row[k.K_RIM] = s.pulley_inertia / s.pulley_radius**2
         row[[k.K_FC, k.K_VS]] = s.guide_friction, s.guide_friction_velocity
-        row[[k.K_REST, k.K_RADIUS]] = (rest if s.system is System.WFPD else s.rest_tension), s.pulley_radius
-        row[k.K_OFFSET] = self._offset(z, run)
+        row[[k.K_REST, k.K_RADIUS]] = s.rest_tension, s.pulley_radius
         return row
-
-    def _offset(self, z: Float, run: int) -> float:
-        for i, c in enumerate(self.coordinates):
-            if c.owner == "run" and c.run == run:
-                return c.value(float(z[i]))
-        return 0.0
 
     def hooks(self, z: Float, kind: str) -> Hooks:
         """The causes' hooks of a kind (before, after, senses, moves) with their constants."""
@@ -152,10 +174,11 @@ class Composition:
         able = [c for c in self.causes if getattr(c, kind) is not None and not (skip and c.acts_on == "force-gauge")]
         chosen = sorted(able, key=lambda c: c.order)
         p = np.zeros((max(len(chosen), 1), WIDTH))
-        own = self._own()
-        for row, cause in zip(p, chosen, strict=False):
-            packed = cause.pack(self.setup(z, 0), self.values(z, cause), own[cause.name])
-            row[: len(packed)] = packed
+        if chosen:
+            own, setup = self._own(), self.setup(z, 0)
+            for row, cause in zip(p, chosen, strict=True):
+                packed = cause.pack(setup, self.values(z, cause), own[cause.name])
+                row[: len(packed)] = packed
         return Hooks(np.array([getattr(c, kind).address for c in chosen], dtype=np.int64), p)
 
     def _own(self) -> dict[str, int]:

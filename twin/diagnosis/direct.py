@@ -48,7 +48,7 @@ def screen(problem: Problem, model: Composition, z: Float, causes: Iterable[Caus
     starts = np.zeros((len(problem.windows), 4))
     here = residual(problem, model, z, starts)
     spread = scale(problem, here)
-    before, reach, states, found = loss(here, spread), survey(problem), problem.states(model, z), []
+    before, reach, found = loss(here, spread), survey(problem), []
     for cause in causes:
         stated = float(getattr(model.setups[0], cause.base)) if cause.base else 0.0
         if cause.base and ("base", cause.base) not in model.index:
@@ -57,8 +57,7 @@ def screen(problem: Problem, model: Composition, z: Float, causes: Iterable[Caus
         carried = model.carry(z, extended)
         trials = []
         for values in sizes(cause, reach, stated):
-            known = states if cause.apart else None
-            left = residual(problem, extended, extended.put(carried, cause, values), starts, known)
+            left = residual(problem, extended, extended.put(carried, cause, values), starts)
             trials.append((before - loss(left, spread), 1.0, values))
         found.append(Scored(cause, tuple(sorted(trials, key=lambda t: -t[0])[:2])))
     return sorted((s for s in found if s.gain > 0), key=lambda s: -s.gain)

@@ -94,11 +94,11 @@ def diagnose(
     if beyond is not None and beyond.learned:
         search.current = beyond.fitted
         search.ladder = [f for f in search.ladder if _part_of(f, beyond.fitted)] + [beyond.fitted]
-        ranks = [r for r in ranks if r.name in {c.name for c in beyond.fitted.model.causes}]
+        ranks = [r for r in ranks if r.name in beyond.fitted.model.names]
     elif beyond is not None and beyond.fitted is search.base:  # the catalogue's causes only stood in for it
         search.current, ranks, search.ladder = search.base, [], search.ladder[:1]
     progress("confirming on held-out windows", 0.85)
-    named = {c.name for c in search.current.model.causes} | {limit.cause for limit in limits}
+    named = set(search.current.model.names) | {limit.cause for limit in limits}
     if "end-stop" in considered and not named & {"end-stop", "dial-gauge-saturation"}:
         limits += clipped.stop(runs)
     for limit in limits:
@@ -161,8 +161,7 @@ def _add(search: Search, limit: clipped.Clip, catalogue: Sequence[Cause]) -> Non
 
 
 def _part_of(fitted: Fitted, whole: Fitted) -> bool:
-    names = {c.name for c in whole.model.causes}
-    return all(c.name in names for c in fitted.model.causes)
+    return set(fitted.model.names) <= set(whole.model.names)
 
 
 def known(system: System, only: Sequence[str] = ()) -> list[Cause]:

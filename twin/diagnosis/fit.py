@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +14,8 @@ from twin.diagnosis.normal import Linear, Reduced, reduce, solve
 from twin.diagnosis.problem import Problem
 
 Float = NDArray[np.float64]
+#: which coordinates may move, and how far in one step
+Within = tuple[NDArray[np.bool_], float]
 TAIL = 4.0
 FLOOR = 0.4
 #: forward steps of a coordinate and of a start: a window that snatches jumps at places, and a longer step crosses more
@@ -35,7 +36,8 @@ NEAR, PACE = 0.03, 2.0
 @dataclass(frozen=True)
 class Fitted:
     """Where a fit stands: z, starts [w, 4] (in spreads), residual [w, LENGTH, 2] (data - prediction, 0 where unused),
-    cost: robust, in the scale it was asked for. information: of z, starts eliminated, priors in it."""
+    cost: robust, in the scale it was asked for. information: of z, starts eliminated, priors in it.
+    given_up: not finished, for it could not come near the fit that it was held against."""
 
     model: Composition
     z: Float
@@ -43,12 +45,13 @@ class Fitted:
     residual: Float
     cost: float
     information: Float | None = None
+    given_up: bool = False
     scores: Float | None = None
 
 
-def residual(problem: Problem, model: Composition, z: Float, starts: Float, own: Float | None = None) -> Float:
-    """Data minus prediction (own as there), zero where a sample doesn't count; 3e3 sigma at most."""
-    left = problem.data - problem.predict(model, z, starts, own)
+def residual(problem: Problem, model: Composition, z: Float, starts: Float) -> Float:
+    """Data minus prediction, zero where a sample doesn't count; 3e3 sigma at most."""
+    left = problem.data - problem.predict(model, z, starts)
     limit = 3e3 * problem.sigma[:, None, :]
     left = np.where(np.isfinite(left), np.clip(left, -limit, limit), limit)
     left[~problem.windows.use] = 0.0
@@ -194,18 +197,16 @@ def fit(
     What changes slowly is differenced anew every few turns only, and where a step fails or hardly gains.
     """
     starts = np.zeros((len(problem.windows), 4)) if starts is None else starts
-    low = np.array([c.low for c in model.coordinates])
-    high = np.array([c.high for c in model.coordinates])
     free = np.ones(len(z), bool) if fixed is None else ~fixed
     left = residual(problem, model, z, starts)
     fitted = Fitted(model, z, starts, left, 0.0)
     damping, reduced, linear = 1e-6, None, known
-    age, anew, gaps = 0, False, []
+    age, anew, given_up = 0, False, False
+    gaps = [] if against is None else [behind(problem, fitted, against)]
     for turn in range(iterations):
-        if against is not None:
-            gaps.append(behind(problem, fitted, against))
-            if _lost(gaps, iterations - turn):
-                break
+        given_up = _lost(gaps, iterations - turn)
+        if given_up:
+            break
         spread = scale(problem, fitted.residual)
         cost = loss(fitted.residual, spread) + prior_cost(model, fitted.z, fitted.starts)
         anew = anew or linear is None or age >= BASE_EVERY
@@ -213,7 +214,7 @@ def fit(
         age = 1 if anew else age + 1
         linear = linearise(problem, fitted, spread, free, linear, base=anew, begin=begin)
         reduced = reduce(linear, fitted.starts, fitted.z)
-        better, damping = _descend(problem, fitted, reduced, spread, cost, (low, high, free, reach), damping)
+        better, damping = _descend(problem, fitted, reduced, spread, cost, (free, reach), damping)
         if better is None:
             if anew:
                 break
@@ -221,15 +222,17 @@ def fit(
             continue
         gained = (cost - better.cost) / max(cost, 1e-9)
         fitted = better
+        if against is not None:
+            gaps.append(behind(problem, fitted, against))
         if gained < tolerance and (anew or gained < 0.1 * tolerance):
             break
         anew = gained < tolerance
-    return replace(fitted, information=None if reduced is None else reduced.matrix)
+    return replace(fitted, information=None if reduced is None else reduced.matrix, given_up=given_up)
 
 
 def behind(problem: Problem, fitted: Fitted, other: Fitted) -> float:
-    """How much more a fit leaves than another that is near it: in the robust loss, for a window astray is no
-    difference; negative where the two are near.
+    """How much more a fit leaves than another, beyond what two may differ by that are near one another: in the robust
+    loss, for a window astray is no difference.
     """
     spread = np.minimum(scale(problem, fitted.residual), scale(problem, other.residual))
     more = loss(fitted.residual, spread) - loss(other.residual, spread)
@@ -237,18 +240,18 @@ def behind(problem: Problem, fitted: Fitted, other: Fitted) -> float:
 
 
 def _lost(gaps: Sequence[float], left: int) -> bool:
-    """Whether what was behind by so much at each turn stays behind for all the turns that are left."""
-    if len(gaps) < 3:
+    """Whether what was behind by so much after each step stays behind for all the turns that are left."""
+    if len(gaps) < 4:
         return False
     pace = max(gaps[-3] - gaps[-2], gaps[-2] - gaps[-1], 0.0)
     return gaps[-1] > PACE * pace * left
 
 
 def _descend(
-    problem: Problem, fitted: Fitted, reduced: Reduced, spread: Float, cost: float, box: Any, damping: float
+    problem: Problem, fitted: Fitted, reduced: Reduced, spread: Float, cost: float, within: Within, damping: float
 ) -> tuple[Fitted | None, float]:
     """A step that lowers the cost, as little damped as does, and the damping to go on with; None where none does."""
-    low, high, free, reach = box
+    (free, reach), low, high = within, fitted.model.low, fitted.model.high
     for _ in range(4):
         step = np.clip(solve(reduced, fitted.z, low, high, free, damping), -reach, reach)
         z = np.clip(fitted.z + step, low, high)

@@ -120,13 +120,11 @@ def _grams(
     hook, function, size, _ = PLACES[place]
     root = np.sqrt(weigh(fitted.residual, spread)) / spread * problem.windows.use
     here = problem.predict(fitted.model, fitted.z, fitted.starts)
-    states = problem.states(fitted.model, fitted.z)
     columns = []
     for h in range(kernels.TRAIN):
         cause = _pseudo(f"hat {h} at the {place}", hook, function, (size, float(h), SPACING * problem.dt))
         model = Composition(fitted.model.setups, (*fitted.model.causes, cause))
-        z = fitted.model.carry(fitted.z, model)
-        there = problem.predict(model, z, fitted.starts, states if cause.apart else None)
+        there = problem.predict(model, fitted.model.carry(fitted.z, model), fitted.starts)
         columns.append(np.nan_to_num((there - here) / size * root).reshape(len(here), -1))
     d = np.array(columns).transpose(1, 0, 2)
     own = linear.starts.transpose(1, 0, 2)

@@ -8,23 +8,21 @@ from numpy.typing import NDArray
 from stand.setup import System
 from twin.causes._kind import Undo
 from twin.diagnosis.run import Run
-from twin.kernels import composed_slots as k
 
 Float = NDArray[np.float64]
 #: a force below so many sigmas of its noise is none: a slack fibre's noise would pull on average
 SLACK = 6.0
 
 
-def measured_path(run: Run, ends: Float, c: Float, undo: Undo, n: int) -> tuple[Float, Float]:
+def measured_path(run: Run, ends: Float, share: float, undo: Undo, n: int) -> tuple[Float, Float]:
     """u, v, s, w [n, 4] of a run's first samples, the rim balanced between the strands, and the drive strand's pull,
     N [n], -1 where none was measured.
 
-    ends: x and x' at the fibre's end [n, 2]; c: the run's constants; undo: how the gauge's true force is had.
+    ends: x and x' at the fibre's end [n, 2]; share: c1/(c1 + c2); undo: how the gauge's true force is had.
     """
     u, v = run.u.value[:n], run.u.rate[:n]
     if run.setup.system is not System.WFPD:
         return np.ascontiguousarray(np.column_stack([u, v, np.zeros((n, 2))])), np.full(n, -1.0)
-    share = c[k.K_C1] / (c[k.K_C1] + c[k.K_C2])
     s, w = (share * a + (1 - share) * b for a, b in ((u, ends[:, 0]), (v, ends[:, 1])))
     time, all_time = np.arange(n) * run.dt, np.arange(len(run.F.value)) * run.dt
     at = time + undo.F_late + undo.F_drift * time

@@ -43,8 +43,7 @@ def covariance(problem: Problem, fitted: Fitted) -> tuple[Float, Float]:
     pieces = np.einsum("pwl,wl->wp", linear.columns, linear.residual) - np.einsum("wps,ws->wp", reduced.cross, solved)
     pieces -= pieces.mean(axis=0)
     meat = pieces.T @ pieces + np.diag(linear.prior)
-    low = np.array([c.low for c in fitted.model.coordinates])
-    high = np.array([c.high for c in fitted.model.coordinates])
+    low, high = fitted.model.low, fitted.model.high
     base = np.array([c.owner in STATED for c in fitted.model.coordinates])  # at its limit it is still uncertain
     inside = base | ((fitted.z > low + 1e-9) & (fitted.z < high - 1e-9))
     inside &= np.diag(reduced.matrix) > 1e-12

@@ -85,46 +85,35 @@ class Problem:
         """[w, LENGTH, 2]."""
         return self.windows.data
 
-    def predict(self, model: Composition, z: Float, starts: Float, own: Float | None = None) -> Float:
+    def predict(self, model: Composition, z: Float, starts: Float) -> Float:
         """What the gauges would have told, [w, LENGTH, 2]; starts [w, 4]: from the reconstruction, in `spread`s.
 
-        own [w, STATES]: the causes' own states there, where they are known. The last prediction is kept: a fit asks for
-        it twice.
+        The last prediction is kept: a fit asks for it twice.
         """
         last = self._kept.last
-        if own is None and last and model is last[0] and np.array_equal(z, last[1]) and np.array_equal(starts, last[2]):
+        if last and model is last[0] and np.array_equal(z, last[1]) and np.array_equal(starts, last[2]):
             return last[3]
-        simulated, _ = self.simulate(model, z, starts, own)
+        simulated, _ = self.simulate(model, z, starts)
         told = self.sense(model, z, simulated)
-        if own is None:
-            self._kept.last = model, z.copy(), starts.copy(), told
+        self._kept.last = model, z.copy(), starts.copy(), told
         return told
 
-    def simulate(
-        self, model: Composition, z: Float, starts: Float, own: Float | None = None
-    ) -> tuple[Float, NDArray[np.int64]]:
+    def simulate(self, model: Composition, z: Float, starts: Float) -> tuple[Float, NDArray[np.int64]]:
         """True signals [w, LENGTH, 5] and each window's status."""
         undo = model.undo(z)
         constants = self._constants(model, z, undo)
         drive = self._driven(model, z)
         before, after = model.hooks(z, "before"), model.hooks(z, "after")
-        if own is None:
-            own = self._own(model, z, constants, drive, undo, before, after)
+        own = self._own(model, z, constants, drive, undo, before, after)
         centre = self._centres(model, z, constants, drive, before, after, own)
         state = np.ascontiguousarray(centre + starts * self.spread)
         return self._carry(state, own, constants, drive, before, after, LENGTH)
-
-    def states(self, model: Composition, z: Float) -> Float:
-        """The causes' own states at the windows' starts, [w, STATES]."""
-        undo, drive = model.undo(z), self._driven(model, z)
-        constants = self._constants(model, z, undo)
-        return self._own(model, z, constants, drive, undo, model.hooks(z, "before"), model.hooks(z, "after"))
 
     def _constants(self, model: Composition, z: Float, undo: Undo) -> Float:
         """Every run's constants; they hang on the base values and the true rest forces alone."""
         rest = [(r.rest_force - undo.F_offset - undo.F_rate * 0.5 * REST) / undo.F_gain for r in self.runs]
         stated = tuple(float(v) for v, c in zip(z, model.coordinates, strict=True) if c.owner in STATED)
-        key = ("constants", tuple(c.name for c in model.causes), stated, tuple(rest))
+        key = ("constants", model.names, stated, tuple(rest))
         return self._kept.keep(key, 5, lambda: model.constants(z, rest))
 
     def forget_states(self) -> None:
@@ -182,7 +171,7 @@ class Problem:
             return own
 
         values = tuple(v for c in model.causes for v in model.values(z, c).values())
-        return self._kept.keep(("own", tuple(c.name for c in model.causes), values), len(values) + 6, fill)
+        return self._kept.keep(("own", model.names, values), len(values) + 6, fill)
 
     def _history(
         self, coasts: bool, r: int, own: Float, constants: Float, drive: Float, undo: Undo, before: Hooks, after: Hooks
@@ -192,9 +181,11 @@ class Problem:
             return
         last = int(self.windows.first[mine].max()) + 2
         ends = drive[self.offset[r] : self.offset[r] + last]
-        asked = r, last, id(drive), constants[r, k.K_C1] / constants[r, k.K_C2], undo
+        share = float(constants[r, k.K_C1] / (constants[r, k.K_C1] + constants[r, k.K_C2]))
         path, force, _ = self._kept.keep(
-            ("path", *asked), 2 * len(self.runs), lambda: (*measured_path(run, ends, constants[r], undo, last), drive)
+            ("path", r, last, id(drive), share, undo),
+            len(self.runs),
+            lambda: (*measured_path(run, ends, share, undo, last), drive),
         )
         out = np.empty((last, k.STATES))
         composed.history(

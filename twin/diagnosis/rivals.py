@@ -50,9 +50,11 @@ class Standing:
 def standings(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
     """Each found cause against its rivals, refitted in its place."""
     causes = search.current.model.causes
+    search.lacking(causes)
     fits = [_rivals(search, cause, catalogue) for cause in causes]
     if any(_near(search.problem, search.current, f) for each in fits for f in each.values()):
         search.end_current()
+        search.lacking(causes)
     return [_standing(search, cause, each) for cause, each in zip(causes, fits, strict=True)]
 
 
@@ -69,7 +71,7 @@ def settle(search: Search, catalogue: Sequence[Cause]) -> list[Standing]:
         chosen = chosen or _merged(search, ranks)
         if chosen is None:
             return ranks
-        search.sets[frozenset(c.name for c in search.current.model.causes)] = search.current
+        search.sets[frozenset(search.current.model.names)] = search.current
         search.current = chosen
         search.ladder.append(search.current)
         backward(search)
@@ -104,7 +106,7 @@ def _rivals(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> dict[st
 
 def _instead_of(search: Search, cause: Cause, rival: Cause) -> frozenset[str]:
     """The names of the model's causes with the rival in the cause's place."""
-    return frozenset({c.name for c in search.current.model.causes} - {cause.name} | {rival.name})
+    return frozenset(search.current.model.names) - {cause.name} | {rival.name}
 
 
 def _standing(search: Search, cause: Cause, fits: Mapping[str, Fitted]) -> Standing:
@@ -142,11 +144,11 @@ def _odds(behind: float, misfit: float) -> float:
 
 def _candidates(search: Search, cause: Cause, catalogue: Sequence[Cause]) -> list[Cause]:
     """Declared rivals, and those whose refit in the same place came near."""
-    named = {c.name for c in search.current.model.causes}
+    named = search.current.model.names
     final = float(error(search.problem, search.current.residual).max())
     near: dict[str, float] = {}
     for f in search.refits:
-        causes = [c.name for c in f.model.causes]
+        causes = f.model.names
         if causes and causes[-1] not in named:
             left = float(error(search.problem, f.residual).max())
             if left < 4.0 * final + 2.0:
@@ -161,18 +163,26 @@ def _begun(search: Search, cause: Cause, rivals: Sequence[Cause]) -> list[tuple[
     causes, or from its best trial on the model without the cause; 0 where no trial shows anything.
     """
     problem = search.problem
-    earlier = {frozenset(c.name for c in f.model.causes): f for f in reversed(search.refits)}
+    earlier = {frozenset(f.model.names): f for f in reversed(search.refits)}
     before = {r.name: earlier.get(_instead_of(search, cause, r)) for r in rivals}
     new = [r for r in rivals if before[r.name] is None]
     anew: dict[str, tuple[Fitted, int]] = {}
     if new:
-        less = search.lacking([cause])[0]
+        less = _less(search, cause)
         for scored in search.work.each(_scored, problem, [(less, new)])[0]():
             anew[scored.cause.name] = less, 0
             if scored.trials:
                 model, z = begin(less, scored)
                 anew[scored.cause.name] = replace(less, model=model, z=z), ANEW
-    return [(f, AGAIN) if (f := before[r.name]) is not None else anew[r.name] for r in rivals]
+    known = {n: (f, ANEW if f.given_up else AGAIN) for n, f in before.items() if f is not None}
+    return [(known | anew)[r.name] for r in rivals]
+
+
+def _less(search: Search, cause: Cause) -> Fitted:
+    """The model without the cause; where that is the base, not as far bent to make up for it as calibration did."""
+    if len(search.current.model.causes) > 1:
+        return search.lacking([cause])[0]
+    return search.work.each(without, search.problem, [(search.current, cause, 3)])[0]()
 
 
 def _scored(problem: Problem, less: Fitted, rivals: Sequence[Cause]) -> list[Scored]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from twin.causes._kind import Cause, Survey
+from twin.causes._kind import Cause, Survey, no_undo
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.fit import FLOOR, Fitted, scale, weigh
 from twin.diagnosis.normal import Linear, reduce
@@ -60,10 +60,9 @@ def score(problem: Problem, fitted: Fitted, causes: Iterable[Cause], linear: Lin
     own = linear.starts.transpose(1, 0, 2)
     root = np.sqrt(weigh(fitted.residual, spread)) / spread * problem.windows.use
     simulated, _ = problem.simulate(fitted.model, fitted.z, fitted.starts)
-    here, states = problem.sense(fitted.model, fitted.z, simulated), problem.states(fitted.model, fitted.z)
+    here = problem.sense(fitted.model, fitted.z, simulated)
     inverse = np.linalg.pinv(reduced.matrix, rcond=1e-12)
-    low = np.array([c.low for c in fitted.model.coordinates])
-    high = np.array([c.high for c in fitted.model.coordinates])
+    low, high = fitted.model.low, fitted.model.high
     calm = bounded(reduced.matrix, reduced.vector, fitted.z, low, high)
     already = float(2 * reduced.vector @ calm - calm @ reduced.matrix @ calm)
     reach = survey(problem)
@@ -73,10 +72,10 @@ def score(problem: Problem, fitted: Fitted, causes: Iterable[Cause], linear: Lin
     def one(cause: Cause, values: Mapping[str, float]) -> tuple[float, float, Mapping[str, float]]:
         model = Composition(fitted.model.setups, (*fitted.model.causes, cause))
         z = model.put(fitted.model.carry(fitted.z, model), cause, values)
-        if cause.apart and cause.senses is not None and cause.before is None and cause.after is None:
+        if cause.undo is no_undo and cause.senses is not None and cause.before is None and cause.after is None:
             there = problem.sense(model, z, simulated)
         else:
-            there = problem.predict(model, z, fitted.starts, states if cause.apart else None)
+            there = problem.predict(model, z, fitted.starts)
         d = np.nan_to_num(np.clip(there - here, -1.0, 1e4) * root).reshape(len(there), -1)
         box = (fitted.z, low, high, _most(cause, values), already)
         gain, amplitude, power = _gain(d, linear.columns, own, linear.residual, reduced, inverse, box)

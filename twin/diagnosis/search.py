@@ -66,7 +66,7 @@ class Search:
 
     def lacking(self, causes: Sequence[Cause]) -> list[Fitted]:
         """The current fit without each of these of its causes; fitted once."""
-        current, names = self.current, frozenset(c.name for c in self.current.model.causes)
+        current, names = self.current, frozenset(self.current.model.names)
         if len(names) == 1:
             return [self.base for _ in causes]
         new = [c for c in causes if (names, c.name) not in self.less]
@@ -99,9 +99,7 @@ def begin(fitted: Fitted, scored: Scored, which: int = 0) -> tuple[Composition, 
         share = amplitude if abs(amplitude) > 0.02 else 0.02
         start[first.name] = first.value + share * (start[first.name] - first.value)
     z = model.put(fitted.model.carry(fitted.z, model), cause, start)
-    low = np.array([c.low for c in model.coordinates])
-    high = np.array([c.high for c in model.coordinates])
-    return model, np.clip(z, low, high)
+    return model, np.clip(z, model.low, model.high)
 
 
 def try_causes(
@@ -129,7 +127,8 @@ def try_causes(
     begun = [p() for p in work.each(_whole, problem, [(fitted, f, keep) for f in ranked(few, begun)])]
     done = [p() for p in work.each(_long_fit, problem, [(f, None) for f in begun[:1]])]
     others = [f for f in begun[1:FINALISTS] if not _behind(problem, f, done[0])]
-    done = ranked(problem, [*done, *(p() for p in work.each(_long_fit, problem, [(f, done[0]) for f in others]))])
+    leader = done[0] if others and sound(problem, fitted, done[0]) else None
+    done = ranked(problem, [*done, *(p() for p in work.each(_long_fit, problem, [(f, leader) for f in others]))])
     names = {_last(f) for f in done}
     return done + [f for f in begun if _last(f) not in names]
 
@@ -190,7 +189,7 @@ def forward(search: Search, causes: Sequence[Cause], progress: Callable[[str, fl
     for turn in range(MOST):
         if turn >= 2 and hopeless(search):
             break
-        taken = {c.name for c in search.current.model.causes}
+        taken = search.current.model.names
         progress(f"looking for {'a' if not turn else 'a further'} cause", 0.3 + 0.12 * turn)
         left, linear = [c for c in causes if c.name not in taken], slopes(problem, search.current)
         scored = score(problem, search.current, left, linear)
@@ -252,7 +251,5 @@ def backward(search: Search) -> None:
 def without(problem: Problem, fitted: Fitted, cause: Cause, iterations: int = 5) -> Fitted:
     """The fit without one of its causes."""
     model = Composition(fitted.model.setups, tuple(c for c in fitted.model.causes if c.name != cause.name))
-    z = fitted.model.carry(fitted.z, model)
-    low = np.array([c.low for c in model.coordinates])
-    high = np.array([c.high for c in model.coordinates])
-    return regained(problem, fit(problem, model, np.clip(z, low, high), fitted.starts, iterations=iterations))
+    z = np.clip(fitted.model.carry(fitted.z, model), model.low, model.high)
+    return regained(problem, fit(problem, model, z, fitted.starts, iterations=iterations))

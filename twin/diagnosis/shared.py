@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -16,6 +17,16 @@ PIECES = 8
 WORTH = 1500
 _POOL = ThreadPoolExecutor(1)
 _IDLE = threading.Semaphore(1)  # the helper, while it has nothing to do
+
+
+def _renew() -> None:
+    """A forked process has no helper yet, whatever its parent's was doing."""
+    global _POOL, _IDLE
+    _POOL, _IDLE = ThreadPoolExecutor(1), threading.Semaphore(1)
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_renew)
 
 
 def handed(job: Callable[[], R]) -> Future[R] | None:

@@ -175,7 +175,7 @@ def _limited(cause: Json, limit: Clip) -> None:
 
 def _strength(search: Search, cause: Cause) -> float:
     """sqrt of the drop of chi^2 per sample, strongest channel, against the best fit without the cause."""
-    without = [f for f in search.ladder if cause.name not in {c.name for c in f.model.causes}]
+    without = [f for f in search.ladder if cause.name not in f.model.names]
     before = error(search.problem, without[-1].residual)
     after = error(search.problem, search.current.residual)
     return float(np.sqrt(np.max(np.maximum(before - after, 0.0))))

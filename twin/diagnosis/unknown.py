@@ -115,7 +115,7 @@ def _choose(search: Search, candidates: list[Unknown]) -> Unknown | None:
     """The base with a term where that does as well as the catalogue's causes; else a term beside them, if worth it."""
     problem = search.problem
     catalogue = float(error(problem, search.current.residual).max())
-    alone = [c for c in candidates if not {k.name for k in c.fitted.model.causes} - {"unknown"}]
+    alone = [c for c in candidates if set(c.fitted.model.names) <= {"unknown"}]
     beside = [c for c in candidates if c not in alone]
     if alone and (not search.current.model.causes or _better(problem, alone[0], search.current)):
         return alone[0]

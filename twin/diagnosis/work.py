@@ -1,4 +1,6 @@
-"""Who does a search's independent fits: this process, one when it is asked for, or a Dask cluster, all at once."""
+"""Who does a search's independent fits: this process, two at a time as they are asked for, or a Dask cluster, all at
+once.
+"""
 
 from __future__ import annotations
 
@@ -116,8 +118,9 @@ def _asked(future: Any) -> Callable[[], Any]:
 
 
 def _version() -> str:
-    """What this process's kernels and causes say of themselves."""
-    return cache_folder("composed").name + cache_folder("", Path(twin.causes.__file__).parent).name
+    """What this process's kernels, causes and diagnosis say of themselves."""
+    folders = Path(twin.causes.__file__).parent, Path(__file__).parent
+    return cache_folder("composed").name + "".join(cache_folder("", folder).name for folder in folders)
 
 
 __all__ = ["Dask", "Here", "Work"]
