@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 import twin.causes
 from mocks.plant.motion import Motion
-from mocks.plant.operator import draw_stand
-from mocks.record import record
-from stand.recording import read_recording
+from tests.twin.exact import exact
 from twin.causes._kind import Cause
-from twin.diagnosis.audit import audit_all
 from twin.diagnosis.composition import Composition
 from twin.diagnosis.fit import fit
 from twin.diagnosis.precision import covariance
-from twin.diagnosis.problem import Problem
-from twin.diagnosis.run import choose, prepare
 from twin.plugins import load
 
 SNATCHING = Motion("rectangular", 1.0, 0.05, 0.0), Motion("trapezoidal", 1.5, 0.05, 0.2)
@@ -26,20 +20,13 @@ SNATCHING = Motion("rectangular", 1.0, 0.05, 0.0), Motion("trapezoidal", 1.5, 0.
 
 def test_a_force_gauges_gain_is_known_no_better_than_the_weights(tmp_path: Path) -> None:
     """All forces and masses alike are all that moves nothing, also in windows that jump at the smallest step."""
-    stand, scale = draw_stand(62), {"force-gauge-scale": {"gain": 1.15}}
-    stand = replace(stand, true=stand.believed)
-    paths = [
-        record(stand, m, path=tmp_path / f"{i}.h5", seconds=8.0, seed=70 + i, hidden=scale)
-        for i, m in enumerate(SNATCHING)
-    ]
-    runs = tuple(prepare(r) for r in audit_all([read_recording(p) for p in paths], ())[0])
-    problem = Problem(runs, choose(runs, 40))
+    problem = exact(tmp_path, {"force-gauge-scale": {"gain": 1.15}}, SNATCHING, windows=40, seed=70)
     cause = load(twin.causes, "force-gauge-scale", Cause)
-    model = Composition(tuple(r.setup for r in runs), (cause,))
+    model = Composition(tuple(r.setup for r in problem.runs), (cause,))
     fitted = fit(problem, model, model.put(model.zero(), cause, {"gain": 1.15}), iterations=6)
     spread, _ = covariance(problem, fitted)
     i = model.index["force-gauge-scale", "gain"]
     sigma = np.sqrt(spread[i, i]) * model.coordinates[i].scale / 1.15
-    setup = runs[0].setup
+    setup = problem.runs[0].setup
     weights = setup.sigma("weight_mass") / setup.weight_mass
     assert 0.4 * weights < sigma < 1.5 * weights, (sigma, weights)

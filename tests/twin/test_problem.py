@@ -14,6 +14,7 @@ from mocks.plant.operator import draw_stand
 from mocks.record import record
 from stand.recording import read_recording
 from stand.setup import System
+from tests.twin.exact import SLOW, THROWN, exact
 from twin.causes._kind import Cause
 from twin.diagnosis.audit import audit_all
 from twin.diagnosis.composition import Composition
@@ -44,8 +45,6 @@ def test_a_start_does_not_jump_where_a_delay_passes_half_a_sample(tmp_path: Path
     assert np.abs(starts(0.5e-3) - before).max() > 5e-6  # the delay itself is undone
 
 
-#: a slow run, in which a state may not drift, and one that throws the weight and catches it
-SLOW, THROWN = Motion("trapezoidal", 0.25, 0.04, 0.8), Motion("rectangular", 1.0, 0.05, 0.0)
 WITH_MEMORY = {
     "fibre-creep": {"compliance": 4e-5, "time_constant": 1.2},
     "fibre-viscoelasticity": {"stiffness": 8000.0, "time_constant": 0.15},
@@ -56,20 +55,9 @@ WITH_MEMORY = {
 }
 
 
-def _exact(folder: Path, hidden: dict[str, dict[str, float | str]], motions: tuple[Motion, ...]) -> Problem:
-    """Runs of a stand whose operator has every value right."""
-    stand = replace(draw_stand(62), true=draw_stand(62).believed)
-    paths = [
-        record(stand, motion, path=folder / f"{i}.h5", seconds=8.0, seed=62 + i, hidden=hidden)
-        for i, motion in enumerate(motions)
-    ]
-    runs = tuple(prepare(r) for r in audit_all([read_recording(p) for p in paths], ())[0])
-    return Problem(runs, choose(runs, 24))
-
-
 @pytest.mark.parametrize("name", WITH_MEMORY)
 def test_with_a_causes_true_values_windows_are_predicted_to_the_noise(name: str, tmp_path: Path) -> None:
-    problem = _exact(tmp_path, {name: WITH_MEMORY[name]}, (SLOW, THROWN))
+    problem = exact(tmp_path, {name: WITH_MEMORY[name]}, (SLOW, THROWN))
     cause = load(twin.causes, name, Cause)
     model = Composition(tuple(r.setup for r in problem.runs), (cause,))
     z = model.put(model.zero(), cause, WITH_MEMORY[name])
@@ -84,7 +72,7 @@ def test_with_a_causes_true_values_windows_are_predicted_to_the_noise(name: str,
 
 def test_a_base_value_far_from_what_is_stated_leads_the_direct_screen(tmp_path: Path) -> None:
     soft = {"fibre-stiffness": {"difference": -0.8 * draw_stand(62).believed.fibre_stiffness}}
-    problem = _exact(tmp_path, soft, (SLOW, THROWN))
+    problem = exact(tmp_path, soft, (SLOW, THROWN))
     model = Composition(tuple(r.setup for r in problem.runs), ())
     ranked = screen(problem, model, model.zero(), known(System.WFPD))
     assert ranked[0].cause.name == "fibre-stiffness"
@@ -93,8 +81,8 @@ def test_a_base_value_far_from_what_is_stated_leads_the_direct_screen(tmp_path: 
 def test_a_drifting_gauges_slack_stretches_start_no_window(tmp_path: Path) -> None:
     """After six seconds the slack fibre seems to pull with more than the 4 N from which it counts as taut."""
     (tmp_path / "true").mkdir()
-    drifting = _exact(tmp_path, {"force-gauge-drift": {"rate": 0.9}}, (THROWN,))
-    true = _exact(tmp_path / "true", {}, (THROWN,)).runs[0].raw_F
+    drifting = exact(tmp_path, {"force-gauge-drift": {"rate": 0.9}}, (THROWN,))
+    true = exact(tmp_path / "true", {}, (THROWN,)).runs[0].raw_F
     slack = true < 1.0
     assert np.mean(slack[10_000:]) > 0.4
     assert len(drifting.windows) >= 12
@@ -102,7 +90,7 @@ def test_a_drifting_gauges_slack_stretches_start_no_window(tmp_path: Path) -> No
 
 
 def test_a_fit_that_calibration_left_bent_is_finished_at_the_true_values(tmp_path: Path) -> None:
-    problem = _exact(tmp_path, {"pulley-bearing-drag": {"coefficient": 8.4}}, (SLOW, THROWN))
+    problem = exact(tmp_path, {"pulley-bearing-drag": {"coefficient": 8.4}}, (SLOW, THROWN))
     cause = load(twin.causes, "pulley-bearing-drag", Cause)
     model = Composition(tuple(r.setup for r in problem.runs), (cause,))
     z = model.put(model.zero(), cause, {"coefficient": 8.9})
@@ -113,7 +101,7 @@ def test_a_fit_that_calibration_left_bent_is_finished_at_the_true_values(tmp_pat
 
 
 def test_a_window_gone_astray_is_started_once_more(tmp_path: Path) -> None:
-    problem = _exact(tmp_path, {}, (THROWN,))
+    problem = exact(tmp_path, {}, (THROWN,))
     model = Composition(tuple(r.setup for r in problem.runs), ())
     fitted = fit(problem, model, model.zero(), iterations=4, fixed=np.ones(len(model.zero()), bool))
     starts = fitted.starts.copy()
@@ -126,10 +114,27 @@ def test_a_window_gone_astray_is_started_once_more(tmp_path: Path) -> None:
 
 
 def test_a_fit_stuck_at_too_small_a_cause_is_begun_again_with_a_larger(tmp_path: Path) -> None:
-    problem = _exact(tmp_path, {"pulley-bearing-drag": {"coefficient": 8.4}}, (SLOW, THROWN))
+    problem = exact(tmp_path, {"pulley-bearing-drag": {"coefficient": 8.4}}, (SLOW, THROWN))
     cause = load(twin.causes, "pulley-bearing-drag", Cause)
     model = Composition(tuple(r.setup for r in problem.runs), (cause,))
     z = model.put(model.zero(), cause, {"coefficient": 2.0})
     z[[model.index["base", "split"], model.index["base", "pulley_inertia"]]] = -2.1, -2.9
     done = finished(problem, fit(problem, model, z, iterations=2))
     assert model.values(done.z, cause)["coefficient"] == pytest.approx(8.4, rel=0.03)
+
+
+def test_what_was_asked_before_changes_no_answer(tmp_path: Path) -> None:
+    problem = exact(tmp_path, {"fibre-creep": WITH_MEMORY["fibre-creep"]}, (SLOW, THROWN))
+    causes = tuple(load(twin.causes, n, Cause) for n in ("fibre-creep", "force-gauge-scale"))
+    model = Composition(tuple(r.setup for r in problem.runs), causes)
+    z = model.put(model.zero(), causes[0], WITH_MEMORY["fibre-creep"])
+    starts = np.zeros((len(problem.windows), 4))
+    first = problem.predict(model, z, starts).copy()
+    z[model.index["force-gauge-scale", "gain"]] += 0.5
+    scaled = problem.predict(model, z, starts).copy()
+    starts[:, 0] += 1.0
+    moved = problem.predict(model, z, starts)
+    assert np.abs(scaled - first).max() > 1e-3
+    assert np.abs(moved - scaled).max() > 1e-8
+    fresh = Problem(problem.runs, problem.windows)
+    assert np.array_equal(fresh.predict(model, z, starts), moved)

@@ -236,7 +236,7 @@ def behind(problem: Problem, fitted: Fitted, other: Fitted) -> float:
     """
     spread = np.minimum(scale(problem, fitted.residual), scale(problem, other.residual))
     more = loss(fitted.residual, spread) - loss(other.residual, spread)
-    return more - NEAR * np.count_nonzero(problem.windows.use)
+    return float(more - NEAR * np.count_nonzero(problem.windows.use))
 
 
 def _lost(gaps: Sequence[float], left: int) -> bool:
@@ -244,7 +244,7 @@ def _lost(gaps: Sequence[float], left: int) -> bool:
     if len(gaps) < 4:
         return False
     pace = max(gaps[-3] - gaps[-2], gaps[-2] - gaps[-1], 0.0)
-    return gaps[-1] > PACE * pace * left
+    return bool(gaps[-1] > PACE * pace * left)
 
 
 def _descend(
