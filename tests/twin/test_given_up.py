@@ -9,7 +9,7 @@ import twin.causes
 from tests.twin.exact import SLOW, THROWN, exact
 from twin.causes._kind import Cause
 from twin.diagnosis.composition import Composition
-from twin.diagnosis.fit import Fitted, behind, fit
+from twin.diagnosis.fit import Fitted, fit, shortfall
 from twin.diagnosis.problem import Problem
 from twin.plugins import load
 
@@ -36,7 +36,7 @@ def test_another_cause_is_given_up(problem: Problem, true: Fitted) -> None:
     model = _with(problem, "fibre-mass")
     z = model.zero()
     alone = fit(problem, model, z, iterations=LONG)
-    assert behind(problem, alone, true) > 0.0
+    assert shortfall(problem, alone, true) > 0.0
     assert not alone.given_up
     assert fit(problem, model, z, iterations=LONG, against=true).given_up
 
@@ -45,6 +45,6 @@ def test_the_right_cause_is_not_and_ends_where_it_does_alone(problem: Problem, t
     model = _with(problem, "pulley-bearing-drag")
     z = model.put(model.zero(), model.causes[0], {"coefficient": 7.0})
     alone, against = (fit(problem, model, z, iterations=LONG, against=other) for other in (None, true))
-    assert behind(problem, against, true) < 0.0
+    assert shortfall(problem, against, true) < 0.0
     assert not against.given_up
     assert np.array_equal(against.z, alone.z)

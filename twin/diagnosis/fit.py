@@ -202,7 +202,7 @@ def fit(
     fitted = Fitted(model, z, starts, left, 0.0)
     damping, reduced, linear = 1e-6, None, known
     age, anew, given_up = 0, False, False
-    gaps = [] if against is None else [behind(problem, fitted, against)]
+    gaps = [] if against is None else [shortfall(problem, fitted, against)]
     for turn in range(iterations):
         given_up = _lost(gaps, iterations - turn)
         if given_up:
@@ -223,14 +223,14 @@ def fit(
         gained = (cost - better.cost) / max(cost, 1e-9)
         fitted = better
         if against is not None:
-            gaps.append(behind(problem, fitted, against))
+            gaps.append(shortfall(problem, fitted, against))
         if gained < tolerance and (anew or gained < 0.1 * tolerance):
             break
         anew = gained < tolerance
     return replace(fitted, information=None if reduced is None else reduced.matrix, given_up=given_up)
 
 
-def behind(problem: Problem, fitted: Fitted, other: Fitted) -> float:
+def shortfall(problem: Problem, fitted: Fitted, other: Fitted) -> float:
     """How much more a fit leaves than another, beyond what two may differ by that are near one another: in the robust
     loss, for a window astray is no difference.
     """

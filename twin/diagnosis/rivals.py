@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from twin.causes._kind import Cause
 from twin.diagnosis.finish import ended, regained
-from twin.diagnosis.fit import Fitted, behind, fit, loss, scale, slopes
+from twin.diagnosis.fit import Fitted, fit, loss, scale, shortfall, slopes
 from twin.diagnosis.found import Rival
 from twin.diagnosis.misfit import error, gained, prior_price
 from twin.diagnosis.problem import Problem
@@ -205,7 +205,7 @@ def _matched(problem: Problem, final: Fitted, rival: Fitted) -> Fitted:
 
 def _near(problem: Problem, final: Fitted, rival: Fitted) -> bool:
     """Whether a rival leaves hardly more."""
-    return behind(problem, rival, final) < 0.0
+    return shortfall(problem, rival, final) < 0.0
 
 
 def tried(search: Search, ranks: Sequence[Standing]) -> tuple[Rival, ...]:
