@@ -108,12 +108,12 @@ def _build(system: Any, exu: Any, c: Float, points: Float, slopes: Float, amplit
 
 def _cable(item: Any, c: Float, nodes: list[int], length: float) -> Any:
     return item.Cable2D(
-        physicsLength=length,
-        physicsMassPerLength=float(c[rig.FIBRE_MASS] / c[rig.LENGTH]),
-        physicsBendingStiffness=float(c[own.EI]),
-        physicsAxialStiffness=float(c[rig.EA]),
-        physicsBendingDamping=float(c[own.EI] * c[rig.TAU]),
-        physicsAxialDamping=float(c[rig.EA] * c[rig.TAU]),
+        length=length,
+        massPerLength=float(c[rig.FIBRE_MASS] / c[rig.LENGTH]),
+        bendingStiffness=float(c[own.EI]),
+        axialStiffness=float(c[rig.EA]),
+        bendingDamping=float(c[own.EI] * c[rig.TAU]),
+        axialDamping=float(c[rig.EA] * c[rig.TAU]),
         nodeNumbers=nodes,
         useReducedOrderIntegration=2,
     )

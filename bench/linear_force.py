@@ -35,7 +35,7 @@ def exudyn(
 
     def mass(kg: float) -> tuple[int, int]:
         node = system.AddNode(item.Node1D(referenceCoordinates=[0.0]))
-        system.AddObject(item.Mass1D(nodeNumber=node, physicsMass=kg))
+        system.AddObject(item.Mass1D(nodeNumber=node, mass=kg))
         return node, system.AddMarker(item.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
 
     (node, weight), (_, rim), (_, drive) = mass(b.m), mass(b.rim), mass(HEAVY)
