@@ -36,7 +36,7 @@ NEAR, PACE = 0.03, 2.0
 @dataclass(frozen=True)
 class Fitted:
     """Where a fit stands: z, starts [w, 4] (in spreads), residual [w, LENGTH, 2] (data - prediction, 0 where unused),
-    cost: robust, in the scale it was asked for. information: of z, starts eliminated, priors in it.
+    cost: robust, in the scale it was asked for.
     given_up: not finished, for it could not come near the fit that it was held against."""
 
     model: Composition
@@ -44,9 +44,7 @@ class Fitted:
     starts: Float
     residual: Float
     cost: float
-    information: Float | None = None
     given_up: bool = False
-    scores: Float | None = None
 
 
 def residual(problem: Problem, model: Composition, z: Float, starts: Float) -> Float:
@@ -200,7 +198,7 @@ def fit(
     free = np.ones(len(z), bool) if fixed is None else ~fixed
     left = residual(problem, model, z, starts)
     fitted = Fitted(model, z, starts, left, 0.0)
-    damping, reduced, linear = 1e-6, None, known
+    damping, linear = 1e-6, known
     age, anew, given_up = 0, False, False
     gaps = [] if against is None else [shortfall(problem, fitted, against)]
     for turn in range(iterations):
@@ -227,7 +225,7 @@ def fit(
         if gained < tolerance and (anew or gained < 0.1 * tolerance):
             break
         anew = gained < tolerance
-    return replace(fitted, information=None if reduced is None else reduced.matrix, given_up=given_up)
+    return replace(fitted, given_up=given_up)
 
 
 def shortfall(problem: Problem, fitted: Fitted, other: Fitted) -> float:

@@ -6,21 +6,16 @@ import threading
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
-
-Float = NDArray[np.float64]
 T = TypeVar("T")
 
 
 class Kept(threading.local):
     """Things by key, of whose kind (a key's first word) only the newest stay; each thread its own.
 
-    last: the last prediction, with what it was made from.
+    A key that holds an id has what it names kept beside what was made.
     """
 
     def __init__(self) -> None:
-        self.last: tuple[Any, Float, Float, Float] | None = None
         self._found: dict[tuple[Any, ...], Any] = {}
 
     def keep(self, key: tuple[Any, ...], most: int, make: Callable[[], T]) -> T:

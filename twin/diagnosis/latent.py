@@ -192,8 +192,8 @@ def _sinusoid(problem: Problem, place: str, grams: Grams, at: Float) -> Term:
     """A vibration of one frequency, its phase and size each run's own."""
     frequencies = np.arange(2.0, 62.0, 0.05)
     gains, amplitude = np.zeros(len(frequencies)), np.zeros(len(frequencies))
-    few = range(0, len(frequencies), AT_ONCE)
-    for some in (slice(first, first + AT_ONCE) for first in few):
+    for first in range(0, len(frequencies), AT_ONCE):
+        some = slice(first, first + AT_ONCE)
         phase = 2 * np.pi * frequencies[some, None, None] * at
         phi = np.stack([np.cos(phase), np.sin(phase)], axis=-1)
         each = phi.swapaxes(2, 3) @ (grams.matrix @ phi)
